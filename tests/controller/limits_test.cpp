@@ -3,6 +3,7 @@
 
 #include "controller/alarms.h"
 #include "controller/block_trial.h"
+#include "controller/m_codes.h"
 #include "controller/surface_speed.h"
 #include "parts.h"
 
@@ -67,6 +68,34 @@ TEST_CASE("codes and variables of the machine builder are known and move nothing
     }
     for (const int number : {69999, 70010, 899999, 1000000})
         CHECK_THROWS_AS(variables.set(number, 1.0, ""), Alarm);
+}
+
+TEST_CASE("M codes that the control knows: calls, its table, clamps, the builder's, no others") {
+    controller::ControlConfig config = bench::five_axes();
+    config.builder.m_codes = {777};
+    for (const int code : {98, 99, 198, 0, 3, 30, 777}) {
+        INFO(code);
+        CHECK(controller::knows_m(code, config));
+    }
+    for (const int code : {97, 100, 197, 199, 776, 778}) {
+        INFO(code);
+        CHECK_FALSE(controller::knows_m(code, config));
+    }
+}
+
+TEST_CASE("a word that is no position has eight digits, with a point and without") {
+    Bench b;
+    CHECK(b.alarm("G1 F99999999 X1.") == 0);
+    CHECK(b.alarm("G1 F100000000 X1.") == 3);
+    CHECK(b.alarm("G1 F100000000. X1.") == 3);
+    CHECK(b.alarm("S100000000") == 3);
+    Bench increments;  // a number without a point is a count of increments
+    increments.stores.parameters.set(3401, 0);
+    increments.control.parameters_changed();
+    CHECK(increments.alarm("G1 F99999999 X1") == 0);
+    CHECK(increments.alarm("G1 F100000000 X1") == 3);
+    CHECK(increments.alarm("G0 X999999999") != 3);
+    CHECK(increments.alarm("G0 X1000000000") == 3);
 }
 
 TEST_CASE("reading #3000 and #3006 is an alarm, writing them is not") {

@@ -116,6 +116,22 @@ TEST_CASE("a gap outside the catalogue is said to be unknown", "[diagnosis]") {
                         [](const diagnosis::DriverShare& d) { return d.by == "time"; }));
 }
 
+TEST_CASE("what a cause leaves open and chance may have made is said as unlikely", "[diagnosis]") {
+    const Bench bench;
+    records::ReadingTable readings = campaign::measured(
+        campaign::with_effect(bench.real, "C.backlash: gap_rad=8e-6"), bench.table, 1);
+    for (records::Reading& row : readings.rows)
+        if (row.value_mm) *row.value_mm += 0.0004 * std::sin(row.time_s / 60.0);
+    const diagnosis::Diagnosis result = diagnosis::diagnose(bench.setup, readings);
+    REQUIRE(result.verdict == diagnosis::Verdict::partly_explained);
+    REQUIRE(result.causes.size() == 2);
+    CHECK(result.causes[0].effect == "C.backlash");
+    CHECK(result.causes[1].effect == "unknown");
+    CHECK(result.causes[1].probability > 0.0);
+    CHECK(result.causes[1].probability < 0.1);
+    CHECK(result.causes[1].what.find("What left-out readings do not confirm") == 0);
+}
+
 TEST_CASE("a few wild readings change neither the noise nor the claim", "[diagnosis]") {
     const Bench bench;
     const auto with_outliers = [&](const setup::Setup& truth, bool repeat) {

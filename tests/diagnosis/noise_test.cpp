@@ -20,6 +20,28 @@ TEST_CASE("readings that scatter more or less than stated have a noise of that s
     }
 }
 
+// The machine drifts while the repeats are taken: to take the drift for noise would conceal it.
+TEST_CASE("noise from repeats is estimated again beside the effects that were found",
+          "[diagnosis]") {
+    const setup::Setup setup = campaign::bc_setup();
+    records::ReadingTable table = campaign::empty_table(setup);
+    campaign::add_sphere_map(table, setup, 60, 3);
+    const std::vector<records::Reading> first = table.rows;
+    for (records::Reading row : first) {
+        row.time_s += first.back().time_s + 60.0;
+        table.rows.push_back(row);
+    }
+    const setup::Setup truth = campaign::with_effect(
+        campaign::real_machine(setup), "thermal.drift: d_mm=[0.1, 0, 0.15], tau_s=600");
+    const diagnosis::Diagnosis d =
+        diagnosis::diagnose(setup, campaign::measured(truth, table, 4, 1.0));
+    REQUIRE(d.noise.source == diagnosis::NoiseSource::repeats);
+    CHECK(d.noise.sphere.scale == Approx(1.0).epsilon(0.15));
+    CHECK(d.noise.sphere.shared < 0.2);
+    REQUIRE(d.causes.size() == 1);
+    CHECK(d.causes.front().effect == "thermal.drift");
+}
+
 TEST_CASE("straightness has the form without its slope, which is squareness", "[diagnosis]") {
     const effects::Catalogue catalogue = effects::make_catalogue(campaign::bc_setup());
     const effects::Effect& effect = *effects::find_effect(catalogue, "X.straightness");

@@ -196,6 +196,16 @@ TEST_CASE("no memory for any matrix of a diagnosis ends it in an abort") {
     }
 }
 
+TEST_CASE("an output whose bytes may not have reached the disk is refused") {
+    const FaultBench bench;
+    const std::string words = "run in/part.nc --programs in --trace out/t.csv";
+    REQUIRE(bench.run(words, "fsync:0").files.size() == 1);
+    const Outcome faulted = bench.run(words, "fsync:1");
+    CHECK(faulted.code == 2);
+    CHECK(faulted.files.empty());
+    CHECK(bench.read("err.txt").find("out/t.csv") != std::string::npos);
+}
+
 TEST_CASE("no command crashes, lies or leaves halves when a call of the system fails") {
     const FaultBench bench;
     for (const std::string& words : commands) {

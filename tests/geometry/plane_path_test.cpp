@@ -72,19 +72,23 @@ TEST_CASE("an offset line that only touches the offset circle meets it there") {
 }
 
 TEST_CASE("offset arcs meet in that of two points which is nearer to the corner") {
-    // Half circles of radius 5 about (0, 0) and (8, 0), from the corner (4, 3) or (4, -3).
-    for (const double side : {1.0, -1.0}) {
-        const PlanePoint corner{4, 3 * side};
-        const PlaneElement first{{-5, 0}, corner, true, {0, 0}, -1.0};
-        const PlaneElement second{corner, {13, 0}, true, {8, 0}, -1.0};
-        for (const double offset : {0.0, 1.0, -0.5}) {
-            const auto at = offset_meeting(first, offset, second, offset, corner);
-            REQUIRE(at);
-            CHECK(at->x == Approx(4.0));
-            CHECK(at->y == Approx(side * std::sqrt((5 + offset) * (5 + offset) - 16)));
+    // Half circles of radius 5 about (0, 0) and (8, 0), from the corner (4, 3) or (4, -3), here and
+    // elsewhere in the plane.
+    for (const double side : {1.0, -1.0})
+        for (const PlanePoint from : {PlanePoint{0, 0}, PlanePoint{30, -70}}) {
+            const PlanePoint corner = from + PlanePoint{4, 3 * side};
+            const PlaneElement first{from + PlanePoint{-5, 0}, corner, true, from, -1.0};
+            const PlaneElement second{corner, from + PlanePoint{13, 0}, true,
+                                      from + PlanePoint{8, 0}, -1.0};
+            for (const double offset : {0.0, 1.0, -0.5}) {
+                const auto at = offset_meeting(first, offset, second, offset, corner);
+                REQUIRE(at);
+                const PlanePoint seen = *at - from;
+                CHECK(seen.x == Approx(4.0));
+                CHECK(seen.y == Approx(side * std::sqrt((5 + offset) * (5 + offset) - 16)));
+            }
+            CHECK_FALSE(offset_meeting(first, -1.5, second, -1.5, corner));  // apart
         }
-        CHECK_FALSE(offset_meeting(first, -1.5, second, -1.5, corner));  // apart
-    }
     const PlaneElement outer{{0, -5}, {5, 0}, true, {0, 0}, 1.5};
     const PlaneElement inner{{5, 0}, {1, 0}, true, {3, 0}, 3.1};  // touches from inside
     const auto at = offset_meeting(outer, 1.0, inner, 1.0, {5, 0});

@@ -357,7 +357,7 @@ TEST_CASE("the value of a word without variables") {
     }
 }
 
-TEST_CASE("a call needs the program that it calls, and nothing else") {
+TEST_CASE("a call needs the program that it calls; where it begins is a whole number") {
     const auto alarm_of_words = [](const std::vector<interpreter::WordValue>& words) {
         interpreter::BlockWords block;
         for (const interpreter::WordValue& word : words) block.words[block.count++] = word;
@@ -367,4 +367,6 @@ TEST_CASE("a call needs the program that it calls, and nothing else") {
     CHECK(alarm_of_words({{65.0, 'G'}, {1.0, 'A'}}) == 76);
     CHECK(alarm_of_words({{65.0, 'G'}, {100.0, 'P'}}) == 0);
     CHECK(alarm_of_words({{65.0, 'G'}, {0.0, '<'}, {1.0, 'A'}}) == 0);
+    CHECK(alarm_of_words({{98.0, 'M'}, {9.0, 'P'}, {5.0, 'Q'}}) == 0);
+    CHECK(alarm_of_words({{98.0, 'M'}, {9.0, 'P'}, {5.5, 'Q'}}) == 7);
 }

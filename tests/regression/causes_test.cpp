@@ -72,6 +72,31 @@ TEST_CASE("shifts that no length and no pivot explains are said one by one", "[c
     }
 }
 
+TEST_CASE("an orientation of a tilted plane is a cause only where it differs", "[compare]") {
+    const setup::Setup setup = bc_table();
+    const auto cut = [](const char* angles, const char* shift) {
+        return fmt::format(
+            "O1\nG90 G21 G94 G54 G40 G49\nG52 {}\nG68.2 X0 Y0 Z0 {}\nG0 X10. Y5. Z150.\n"
+            "G1 X40. F500.\nY30.\nG0 Z200.\nM30\n",
+            shift, angles);
+    };
+    const auto said = [&](const std::string& a, const std::string& b) {
+        std::string text;
+        for (const auto& d : compare_texts(a, b, setup, only(regression::Layer::path)).differences)
+            text += d.what + "\n";
+        return text;
+    };
+    // A quarter turn about Z at once, or in two halves: the same plane but for the rounding.
+    const std::string at_once = cut("I90. J0 K0", "X0"), halves = cut("I45. J0 K45.", "X0");
+    CHECK(said(at_once, halves).empty());
+    const std::string orientation = "another orientation of the tilted plane";
+    const std::string shifted = said(at_once, cut("I45. J0 K45.", "X1."));
+    INFO(shifted);
+    CHECK_FALSE(shifted.empty());
+    CHECK(shifted.find(orientation) == std::string::npos);
+    CHECK(said(at_once, cut("I60. J0 K0", "X0")).find(orientation) != std::string::npos);
+}
+
 TEST_CASE("a side that indexes before G43.4 gets the hint of the frame, the other does not",
           "[compare]") {
     const setup::Setup setup = bc_table();
