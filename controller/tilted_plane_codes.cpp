@@ -190,7 +190,8 @@ positioning::RotaryChoice tool_axis_choice(const SortedWords& words, const Modal
 void note_choice(const positioning::RotaryTransform& transform,
                  const positioning::RotaryChoice& choice, const char* code, int line,
                  RunRecord& record) {
-    if (record.notes.size() > 200) return;
+    constexpr std::size_t most_notes = 200;
+    if (record.notes.size() >= most_notes) return;
     record.note(
         fmt::format("{} line {}: {}", code, line, solutions_text(transform.pivot(), choice)));
 }

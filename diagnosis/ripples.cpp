@@ -102,7 +102,7 @@ std::vector<double> aliases_on(double step, const Ripple& ripple) {
 
 /// Step of the grid of all positions of an axis; 0 without one.
 double step_of(const std::vector<double>& places) {
-    return places.size() < 2 ? 0.0 : grid_step(places);
+    return places.empty() ? 0.0 : grid_step(places);
 }
 
 /// The key with the longest period among those that the positions cannot tell apart.

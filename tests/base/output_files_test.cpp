@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <grp.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -10,6 +11,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <iterator>
 
 #include "base/alarm.h"
@@ -215,4 +217,30 @@ TEST_CASE("a looping link and a missing folder are refused with the path") {
     CHECK_THROWS_AS(OutputFile(folder.file("a")), InputError);
     CHECK_THROWS_AS(OutputFile("/nowhere/x"), InputError);
     CHECK_THROWS_AS(read_file(folder.file("a")), InputError);
+}
+
+// A socket cannot be opened by its name under /proc: the open one is written to.
+TEST_CASE("/dev/stdout is the standard output, whatever that is") {
+    int ends[2];
+    REQUIRE(::socketpair(AF_UNIX, SOCK_STREAM, 0, ends) == 0);
+    const FileHandle reader(ends[0]);
+    std::cout.flush();
+    std::fflush(stdout);
+    const pid_t id = ::fork();
+    if (id == 0) {
+        ::dup2(ends[1], STDOUT_FILENO);
+        try {
+            put("/dev/stdout", "text");
+        } catch (const InputError&) {
+            ::_exit(1);
+        }
+        ::_exit(0);
+    }
+    ::close(ends[1]);
+    int state = 0;
+    ::waitpid(id, &state, 0);
+    CHECK((WIFEXITED(state) && WEXITSTATUS(state) == 0));
+    std::array<char, 8> read{};
+    CHECK(::read(reader.descriptor(), read.data(), read.size()) == 4);
+    CHECK(std::string(read.data()) == "text");
 }

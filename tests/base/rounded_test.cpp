@@ -109,13 +109,17 @@ TEST_CASE("an angle in degrees reads back as the same angle, in the fewest digit
     CHECK(shortest_degrees(rad_from_deg(12.5)) == "12.5");
     CHECK(shortest_degrees(rad_from_deg(-0.25)) == "-0.25");
     SeededNoise random(3);
-    for (int k = 0; k < 200; ++k) {
+    for (int k = 0; k < 400; ++k) {
         const double angle_rad = random.uniform();
         const std::string shown = shortest_degrees(angle_rad);
         const auto read = parse_number(shown);
         REQUIRE(read);
         CHECK(rad_from_deg(*read) == Approx(angle_rad).epsilon(1e-15));
-        double other = deg_from_rad(angle_rad) * (1.0 - 1e-15);
+        // Of texts of one length: that of the computed degrees, if it is one of them.
+        const double plain = deg_from_rad(angle_rad);
+        if (rad_from_deg(plain) == angle_rad && shown.size() == shortest(plain).size())
+            CHECK(shown == shortest(plain));
+        double other = plain * (1.0 - 1e-15);
         for (int ulp = 0; ulp < 20; ++ulp, other = std::nextafter(other, 1e3))
             if (rad_from_deg(other) == angle_rad) CHECK(shown.size() <= shortest(other).size());
     }

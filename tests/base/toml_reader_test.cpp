@@ -21,6 +21,20 @@ TEST_CASE("a message shows the line as it stands in the file, whatever ends it")
     CHECK_THROWS_AS(last.number(*last.root().find("x")), InputError);
 }
 
+TEST_CASE("a message about a place behind the end shows no line") {
+    for (const char* text : {"a = 1", "a = 1\n", ""}) {
+        const TomlFile file(text, "s.toml");
+        TomlValue place;
+        place.line = 7;
+        try {
+            file.fail(place, "nothing stands here");
+        } catch (const InputError& e) {
+            CHECK(e.where.line == 7);
+            CHECK(e.line_text.empty());
+        }
+    }
+}
+
 TEST_CASE("a key that nobody asked for is told, one that was asked for is not") {
     const TomlFile file("known = 1\nunknwon = 2\n[a]\nknown = 3\nother = 4\n", "s.toml");
     file.root().find("known");

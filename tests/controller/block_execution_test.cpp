@@ -134,4 +134,18 @@ TEST_CASE("stroke limits stop the move before it starts") {
     CHECK(b.variable(5021) == 50.0);
 }
 
+TEST_CASE("the first number without a point is noted, whichever word of its block it is") {
+    for (const char* block : {"G0 X1. Y100", "G0 X100 Y1.", "G0 Y100", "G0 X0 C90"}) {
+        Bench b;
+        b(block);
+        INFO(block);
+        CHECK(b.control.mover.record().notes.size() == 1);
+        b("Z50");
+        CHECK(b.control.mover.record().notes.size() == 1);
+    }
+    Bench b;
+    b("G0 X0 Y0.;X1. Z-3.5");  // 0 is 0 in every unit
+    CHECK(b.control.mover.record().notes.empty());
+}
+
 }  // namespace trunnion

@@ -133,6 +133,9 @@ TEST_CASE("a period needs 8 places, two turns and no hole, of any kind of axis",
         CHECK_FALSE(diagnosis::shows_period(with_gaps, 4.3 * unit));
         CHECK_FALSE(diagnosis::shows_period(with_gaps, 9.9 * unit));
         CHECK(diagnosis::shows_period(with_gaps, 13.0 * unit));
+        // Phases 0, 0.2, 0.4 and 0.8: a hole of 0.4, no more.
+        CHECK(diagnosis::shows_period({0, 1, 2, 4, 5, 6, 7, 9, 10}, 5.0));
+        CHECK_FALSE(diagnosis::shows_period({0, 1, 2, 4.01, 5, 6, 7, 9.01, 10}, 5.0));
         with_gaps[3] += 1.7 * unit;  // one place beside it: no alias is exact any more
         CHECK(diagnosis::shows_period(with_gaps, 7.3 * unit));
     }

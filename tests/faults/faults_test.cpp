@@ -206,6 +206,16 @@ TEST_CASE("an output whose bytes may not have reached the disk is refused") {
     CHECK(bench.read("err.txt").find("out/t.csv") != std::string::npos);
 }
 
+TEST_CASE("a device that takes no byte is refused, not asked for ever") {
+    const FaultBench bench;
+    const std::string words = "run in/part.nc --programs in --trace out/t.csv";
+    REQUIRE(bench.run(words, "stall:0").files.size() == 1);
+    const Outcome faulted = bench.run(words, "stall:1");
+    CHECK(faulted.code == 2);
+    CHECK(faulted.files.empty());
+    CHECK(bench.read("err.txt").find("out/t.csv") != std::string::npos);
+}
+
 TEST_CASE("no command crashes, lies or leaves halves when a call of the system fails") {
     const FaultBench bench;
     for (const std::string& words : commands) {

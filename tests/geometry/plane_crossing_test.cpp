@@ -106,6 +106,9 @@ TEST_CASE("an element that only touches another touches it and does not cross it
     CHECK(touch(line({0, 0}, {5, 0}), circle));  // ends on it
     CHECK(cross_over(line({0, 0}, {5, 0}), circle));
     CHECK_FALSE(touch(line({0, 0}, {4.9, 0}), circle));
+    CHECK(touch(line({0, 0}, {9, 0}), line({9, 0}, {20, 0})));  // one goes on from the other
+    CHECK(touch(line({30, 7}, {39, 7}), line({39, 7}, {50, 7})));
+    CHECK_FALSE(touch(line({30, 7}, {39, 7}), line({39, -7}, {50, -7})));
     CHECK_FALSE(touch(line({0, 0}, {9, 0}), line({0, 1}, {9, 1})));
     CHECK(touch(line({0, 0}, {9, 0}), line({4, 0}, {20, 0})));  // one lies on the other
     CHECK_FALSE(cross_over(line({0, 0}, {9, 0}), line({4, 0}, {20, 0})));

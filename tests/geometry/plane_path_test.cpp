@@ -53,6 +53,21 @@ TEST_CASE("offset elements meet where their offset curves do") {
     CHECK_FALSE(offset_meeting(along_x, 5.0, arc, 1.0, {15, 0}));
 }
 
+TEST_CASE("a line and an arc meet in that of two points which is nearer to the corner") {
+    // The line 2 above the centre cuts the circle of radius 5 - 1 on both sides of it.
+    for (const double side : {1.0, -1.0})
+        for (const double way : {1.0, -1.0}) {
+            const PlanePoint corner{10.0 + 5.0 * side, 0.0};
+            const PlaneElement line{{10.0 - 20.0 * way, 0}, corner, false, {}, 0.0};
+            const PlaneElement arc{corner, {10, 5}, true, {10, 0}, side * pi / 2};
+            const auto met = offset_meeting(line, 2.0 * way, arc, side, corner);
+            REQUIRE(met);
+            INFO(side << " " << way);
+            CHECK(met->x == Approx(10.0 + side * std::sqrt(12.0)));
+            CHECK(met->y == Approx(2.0));
+        }
+}
+
 TEST_CASE("tangents of an arc stand square to its radius, wherever its centre is") {
     const PlaneElement arc{{13, 4}, {10, 9}, true, {10, 4}, pi / 2};
     CHECK(tangent_at_start(arc).x == Approx(0.0).margin(1e-12));

@@ -122,4 +122,21 @@ TEST_CASE("a slip is dated to the middle between the readings before and after i
     }
 }
 
+TEST_CASE("a key some values of the grid away is found, below and above", "[identification]") {
+    const Map map;
+    const effects::Effect& drift = map.effect("thermal.drift");
+    const std::vector<double>& grid = drift.parameters[3].grid;
+    const std::size_t middle = grid.size() / 2;
+    const Fitted fit(
+        map, fmt::format("thermal.drift: d_mm=[0.01, 0, 0.03], tau_s={}", 1.05 * grid[middle]));
+    for (const std::size_t from : {middle - 3, middle - 2, middle + 3, middle + 4}) {
+        std::vector<double> start = drift.zeros();
+        start[3] = grid[from];
+        INFO(grid[from] << " to " << 1.05 * grid[middle]);
+        CHECK(identification::refine_keys(fit.replay, fit.base, drift, start,
+                                          fit.base.residual_mm)[3] ==
+              Approx(1.05 * grid[middle]).epsilon(0.01));
+    }
+}
+
 }  // namespace trunnion

@@ -130,4 +130,25 @@ TEST_CASE("a large gap is refused as a slip of units unless it is meant", "[iden
     CHECK_THAT(meant.notes[0], Catch::Contains("a residual of 8.") && Catch::Contains("accepted"));
 }
 
+TEST_CASE("play sideways depends on the side as a gap along the axis does", "[identification]") {
+    const setup::Setup setup = campaign::bc_setup();
+    const records::ReadingTable read = circles(setup, 1);
+    const emulator::Replay replay(setup, read);
+    REQUIRE_FALSE(replay.unknown_sides().empty());
+    const auto sees = [&](const effects::EffectFunction& add) {
+        effects::Effect effect;
+        effect.add = add;
+        return identification::sees_side(replay, 0, *identification::usual_model(effect, {}));
+    };
+    const std::size_t axis = index_of(replay.unknown_sides()[0].axis);
+    CHECK(sees([axis](const AxisSample& sample, const emulator::Contact&, std::span<const double>,
+                      kinematics::Perturbation& out) {
+        out.motion[axis].shift_mm.x() = 1e-3 * sample.travel[axis];
+    }));
+    CHECK_FALSE(sees([axis](const AxisSample&, const emulator::Contact&, std::span<const double>,
+                            kinematics::Perturbation& out) {
+        out.motion[axis].shift_mm.x() = 1e-3;
+    }));
+}
+
 }  // namespace trunnion

@@ -185,4 +185,6 @@ TEST_CASE("a skipped branch is left at its own ENDIF, whatever its comments say"
     CHECK(run(nested, options).blocks == Blocks{"X3"});
     const char* jump = "IF[0EQ1]THEN\nIF[1EQ0]GOTO9(SO THEN)\nENDIF\nX3.\nN9X4.\n";
     CHECK(run(jump, options).blocks == Blocks{"X3", "X4"});
+    const char* loop = "IF[0EQ1]THEN\nDO1\nX1.\nEND1\nX2.\nENDIF\nX3.\n";  // END1 is no ENDIF
+    CHECK(run(loop, options).blocks == Blocks{"X3"});
 }

@@ -103,6 +103,17 @@ TEST_CASE("the pitch table of a rotary axis repeats with the turn") {
     }
 }
 
+TEST_CASE("the last point of the pitch data is 1535, behind it is no datum") {
+    offsets::Parameters p = linear_table();
+    p.entry[3620].by_axis = {{1, 1534.0}};
+    p.entry[3621].by_axis = {{1, 1534.0}};
+    p.entry[3622].by_axis = {{1, 1535.0}};
+    for (int point = 1534; point <= 1536; ++point) p.set(10000 + point, 4.0);
+    CHECK(of(p, Axis::X).pitch(50.0) == Approx(0.004));
+    p.entry[3622].by_axis = {{1, 1536.0}};
+    CHECK(offsets::decode_compensation(p, order).empty());
+}
+
 TEST_CASE("numbers that describe no table compensate nothing") {
     offsets::Parameters p = linear_table();
     p.entry[3624].by_axis = {{1, 0.0}};

@@ -84,13 +84,18 @@ TEST_CASE("a word that repeats what is in force changes nothing, unless somethin
         {"G81 X2. Y1. Z0. R1.\n", "G81 X2. Z0. R1.\n", false},
         {"M98 P5\nX1. Y2.\n", "M98 P5\nY2.\n", false},
         {"M198 P5\nX1. Y2.\n", "M198 P5\nY2.\n", false},
+        {"M99 P5\nX1. Y2.\n", "M99 P5\nY2.\n", false},
         {"G65 P5\nX1. Y2.\n", "G65 P5\nY2.\n", false},
         {"G66 P5\nX1. Y2.\n", "G66 P5\nY2.\n", false},
         {"#100=1\nX1. Y2.\n", "#100=1\nY2.\n", false},
         {"/X5.\nX1. Y2.\n", "/X5.\nY2.\n", false},
         {"M8\nX1. Y2.\n", "M8\nY2.\n", true},
+        {"M6\nX1. Y2.\n", "M6\nY2.\n", false},
+        {"M10\nX1. Y2.\n", "M10\nY2.\n", false},  // the builder's: it may move axes
         {"G54\nX1. Y2.\n", "G54\nY2.\n", false},
         {"G68.2 X0 Y0 Z0 I0 J30 K0\nG94 X2.\n", "G68.2 X0 Y0 Z0 I0 J30 K0\nX2.\n", false},
+        {"G68.3 X0 Y0 Z0\nG94 X2.\n", "G68.3 X0 Y0 Z0\nX2.\n", false},
+        {"G68.4 X0 Y0 Z0 I0 J30 K0\nG94 X2.\n", "G68.4 X0 Y0 Z0 I0 J30 K0\nX2.\n", false},
         {"X3. X2.\n", "X2. X3.\n", false},  // the last one counts
         {"G0 G1 X3.\n", "G1 G0 X3.\n", false},
         {"M3 M8 X2.\n", "M8 M3 X2.\n", false},  // in the order written

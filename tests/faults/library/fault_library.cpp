@@ -1,6 +1,7 @@
 // A library to be preloaded: it fails one call of one function of the system, and counts the calls.
 //
 //   TRUNNION_FAULT=write:3      the third call of write fails (counted from main on); 0: none
+//                               "stall": write takes no byte and gives no reason
 //   TRUNNION_FAULT_COUNT=FILE   at the end the number of calls is written there
 #include <dirent.h>
 #include <dlfcn.h>
@@ -89,7 +90,6 @@ int __libc_start_main(Main main, int argc, char** argv, void (*init)(), void (*f
     }
 
 FAULT(read, -1, EIO, ssize_t, (int file, void* data, size_t size), (file, data, size))
-FAULT(write, -1, ENOSPC, ssize_t, (int file, const void* data, size_t size), (file, data, size))
 FAULT(pread, -1, EIO, ssize_t, (int file, void* data, size_t size, off_t at),
       (file, data, size, at))
 FAULT(pwrite, -1, ENOSPC, ssize_t, (int file, const void* data, size_t size, off_t at),
@@ -106,6 +106,20 @@ FAULT(mmap, MAP_FAILED, ENOMEM, void*,
       (at, size, protection, flags, file, offset))
 FAULT(poll, -1, ENOMEM, int, (pollfd * files, nfds_t count, int wait_ms), (files, count, wait_ms))
 #undef FAULT
+
+ssize_t write(int file, const void* data, size_t size) {
+    using Write = ssize_t (*)(int, const void*, size_t);
+    static const auto next = real<Write>("write");
+    if (fails("write")) {
+        errno = ENOSPC;
+        return -1;
+    }
+    if (fails("stall")) {
+        errno = EINTR;  // of an earlier call
+        return 0;
+    }
+    return next(file, data, size);
+}
 
 int open(const char* path, int flags, ...) {
     using Open = int (*)(const char*, int, mode_t);
