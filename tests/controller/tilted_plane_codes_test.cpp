@@ -172,7 +172,8 @@ TEST_CASE("a program that indexes often has 200 notes of it, no more") {
     b.run("G54 G90 G0");
     for (int k = 0; k < 210; ++k) {
         b.run(fmt::format("G69;G68.2 X0 Y0 Z0 I{}. J40. K-90.;G53.1", k));
-        CHECK(b.control.mover.record().notes.size() == static_cast<std::size_t>(std::min(k + 1, 200)));
+        CHECK(b.control.mover.record().notes.size() ==
+              static_cast<std::size_t>(std::min(k + 1, 200)));
     }
 }
 

@@ -85,6 +85,12 @@ TEST_CASE("pure error is the scatter inside settings", "[estimation]") {
     v(17) += 100.0;  // a wild reading does not set the noise
     CHECK(std::sqrt(estimation::pure_error(v, setting).variance) == Approx(0.7).epsilon(0.15));
     CHECK(estimation::pure_error(v, std::vector<int>(900, -1)).freedom == 0.0);
+    // Most readings repeat exactly, as those of a coarse scale do: nothing is clipped.
+    Eigen::VectorXd coarse = Eigen::VectorXd::Zero(20);
+    coarse(0) = 0.01;
+    std::vector<int> pairs;
+    for (int k = 0; k < 20; ++k) pairs.push_back(k / 2);
+    CHECK(estimation::pure_error(coarse, pairs).variance == Approx(0.01 * 0.01 / 20.0));
 }
 
 TEST_CASE("places of a free form go together as Matern 3/2 of their distance says",

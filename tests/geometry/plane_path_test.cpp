@@ -104,6 +104,11 @@ TEST_CASE("offset arcs meet in that of two points which is nearer to the corner"
             }
             CHECK_FALSE(offset_meeting(first, -1.5, second, -1.5, corner));  // apart
         }
+    const PlaneElement beside{{-5, 0}, {5, 0}, true, {0, 0}, -pi};
+    const PlaneElement next{{5, 0}, {15, 0}, true, {10, 0}, pi};  // they touch from outside
+    const auto touched = offset_meeting(beside, 0.0, next, 0.0, {5, 0});
+    REQUIRE(touched);
+    CHECK(length_of(*touched - PlanePoint{5, 0}) < 1e-9);
     const PlaneElement outer{{0, -5}, {5, 0}, true, {0, 0}, 1.5};
     const PlaneElement inner{{5, 0}, {1, 0}, true, {3, 0}, 3.1};  // touches from inside
     const auto at = offset_meeting(outer, 1.0, inner, 1.0, {5, 0});

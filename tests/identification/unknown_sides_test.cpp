@@ -145,10 +145,9 @@ TEST_CASE("play sideways depends on the side as a gap along the axis does", "[id
                       kinematics::Perturbation& out) {
         out.motion[axis].shift_mm.x() = 1e-3 * sample.travel[axis];
     }));
-    CHECK_FALSE(sees([axis](const AxisSample&, const emulator::Contact&, std::span<const double>,
-                            kinematics::Perturbation& out) {
-        out.motion[axis].shift_mm.x() = 1e-3;
-    }));
+    CHECK_FALSE(
+        sees([axis](const AxisSample&, const emulator::Contact&, std::span<const double>,
+                    kinematics::Perturbation& out) { out.motion[axis].shift_mm.x() = 1e-3; }));
 }
 
 }  // namespace trunnion

@@ -6,6 +6,19 @@
 using namespace trunnion;
 using namespace trunnion::test;
 
+TEST_CASE("programs in memory have a number, and a name with the letter O or without") {
+    interpreter::ProgramsInMemory programs;
+    programs.add(12, "O12\nM99\n");
+    for (const char* name : {"12", "O12", "o12", "O0012"}) {
+        INFO(name);
+        CHECK(programs.find(std::string_view(name)));
+    }
+    for (const char* name : {"", "O", "O13", "P12", "OO12", "12A"}) {
+        INFO(name);
+        CHECK_FALSE(programs.find(std::string_view(name)));
+    }
+}
+
 TEST_CASE("G65 passes arguments to a new level and returns to the old one") {
     const Run r =
         run("O1\n#1=7\nG65P9010A2.5B-1.C#1X10Z3.\n#100=#1\nM30\n"

@@ -114,8 +114,12 @@ TEST_CASE("values that cannot be are alarm 5459") {
     CHECK(with(19697, 4) == 5459);
     CHECK(with(19681, 1e30) == 5459);
     CHECK(with(19700, std::numeric_limits<double>::infinity()) == 5459);
-    CHECK(with(19742, 10) == 5459);  // lower limit above the upper one
-    CHECK(with(19696, 3) == 5459);   // both axes hypothetical
+    CHECK(with(19742, 10) == 5459);          // lower limit above the upper one
+    offsets::Parameters still = bc_table();  // both limits at one place: the axis does not turn
+    still.set(19741, 10);
+    still.set(19742, 10);
+    CHECK(alarm_of(still) == 0);
+    CHECK(with(19696, 3) == 5459);  // both axes hypothetical
     offsets::Parameters none = bc_table();
     none.set(19680, 0);
     CHECK_FALSE(offsets::decode_pivot(none, bc_order));

@@ -181,10 +181,10 @@ TEST_CASE("an angle of zero has no sign, so that nothing shows -0") {
     for (const Axis tilt : {Axis::A, Axis::B})
         for (const double sign : {1.0, -1.0})
             for (const offsets::PivotParameters& pivot : {table(tilt, sign), head(tilt)})
-                for (const Vector3& n : {Vector3(0, 0, 1), Vector3(1, 0, 0), Vector3(0, 1, 0),
-                                         Vector3(-1, 0, 0), Vector3(0, -1, 0), Vector3(0, 0, -1),
-                                         Vector3(0.6, 0, 0.8), Vector3(-0.6, 0, 0.8),
-                                         Vector3(0, 0.6, 0.8), Vector3(0, -0.6, 0.8)})
+                for (const Vector3& n :
+                     {Vector3(0, 0, 1), Vector3(1, 0, 0), Vector3(0, 1, 0), Vector3(-1, 0, 0),
+                      Vector3(0, -1, 0), Vector3(0, 0, -1), Vector3(0.6, 0, 0.8),
+                      Vector3(-0.6, 0, 0.8), Vector3(0, 0.6, 0.8), Vector3(0, -0.6, 0.8)})
                     for (const positioning::RotarySolution& s :
                          positioning::RotaryTransform(pivot).orient(n, {})) {
                         if (s.first_rad == 0.0) CHECK_FALSE(std::signbit(s.first_rad));
