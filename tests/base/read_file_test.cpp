@@ -156,6 +156,16 @@ TEST_CASE("a file that another program has on lease is waited for", "[waiting]")
     fs::remove(path);
 }
 
+TEST_CASE("a file that another program keeps on lease is refused after five seconds", "[waiting]") {
+    const std::string path = fs::temp_directory_path() / ("kept" + std::to_string(::getpid()));
+    std::ofstream(path) << "abc";
+    std::signal(SIGIO, SIG_IGN);
+    const FileHandle holder(::open(path.c_str(), O_WRONLY));
+    if (::fcntl(holder.descriptor(), F_SETLEASE, F_WRLCK) != 0) return;  // no leases here
+    CHECK_THAT(message_of(path), Catch::Contains("another program holds it (after 5"));
+    fs::remove(path);
+}
+
 TEST_CASE("files are noted while a record lives, and not before or after") {
     const std::string path = fs::temp_directory_path() / ("r" + std::to_string(::getpid()));
     std::ofstream(path) << "abc";

@@ -20,14 +20,17 @@ regression::Keys chosen(const regression::Keys& keys, const regression::PassRang
     return out;
 }
 
+/// `most_read`: the most items of one side that were read at a time.
 std::vector<regression::PassPair> aligned(const regression::Keys& a, const regression::Keys& b,
-                                          regression::AlignLimits limits) {
+                                          regression::AlignLimits limits,
+                                          std::size_t* most_read = nullptr) {
     const regression::AlignSource source{
         a.size(), b.size(), [&](std::uint64_t i, std::uint64_t j) { return a[i] == b[j]; },
         [&](const regression::PassRanges& in_a, const regression::PassRanges& in_b,
             regression::Keys& keys_a, regression::Keys& keys_b) {
             keys_a = chosen(a, in_a);
             keys_b = chosen(b, in_b);
+            if (most_read) *most_read = std::max({*most_read, keys_a.size(), keys_b.size()});
         }};
     std::vector<regression::PassPair> pairs;
     regression::align(source, limits,
@@ -149,6 +152,25 @@ TEST_CASE("an insertion longer than a window leaves the rest paired one by one",
     }
 }
 
+TEST_CASE("no more is read than the smallest window with a match in its first three quarters",
+          "[align]") {
+    const regression::Keys a = numbers(4000);
+    regression::AlignLimits limits;
+    limits.window = 16;
+    limits.reordering = false;
+    for (std::size_t inserted = 1; inserted <= 200; ++inserted) {
+        regression::Keys b = a;
+        b.insert(b.begin() + 1500, inserted, 7);
+        std::size_t window = 16, there = 0, back = 0;
+        while (4 * inserted >= 3 * window) window *= 4;
+        INFO(inserted);
+        CHECK(count_of(aligned(a, b, limits, &there), regression::Pairing::same) == a.size());
+        CHECK(count_of(aligned(b, a, limits, &back), regression::Pairing::same) == a.size());
+        CHECK(there == window);
+        CHECK(back == window);
+    }
+}
+
 TEST_CASE("a spilled array gives back what went in, across the border of memory and disk",
           "[compare]") {
     using Array = regression::SpilledArray<regression::KeyedLine>;
@@ -194,6 +216,8 @@ TEST_CASE("beyond the resync window the verdict stays right and the search goes 
             REQUIRE(r.clusters.size() == 1);
             CHECK(r.clusters[0].first.a.last <= 202);
         }
+        // No corner behind the window was looked at.
+        if (inserts && window < 60) CHECK(r.clusters[0].first.a.last > 202);
         if (inserts) CHECK(r.clusters[0].first.b.first == 201);
     }
 }
