@@ -40,7 +40,8 @@ void write_out(std::string_view text) {
 }
 
 void finish_out() {
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) refuse_out();
+    std::fflush(stdout);  // where it fails, the stream has an error
+    if (std::ferror(stdout) != 0) refuse_out();
 }
 
 void write_error(std::string_view text) noexcept {
