@@ -35,6 +35,23 @@ std::string functions(const std::string& a, const std::string& b) {
 
 }  // namespace
 
+TEST_CASE("a G10 is another one where it writes another store, whatever values it writes",
+          "[compare]") {
+    const auto pair = [](const char* store, double first_mm) {
+        // Both stores are 0 at the end.
+        return replaced(part, "X60.",
+                        fmt::format("G10 L2 {0} X{1}\nG10 L2 {0} X0.\nX60.", store,
+                                    fmt::format("{:.1f}", first_mm)));
+    };
+    for (const char* store : {"P2", "P3", "P5"})
+        for (const char* other : {"P2", "P3", "P5"})
+            for (const double other_mm : {1.0, 2.0}) {
+                INFO(store << " " << other << " " << other_mm);
+                CHECK(functions(pair(store, 1.0), pair(other, other_mm)).empty() ==
+                      (std::string(store) == other));
+            }
+}
+
 // A function that one side has is shown on the other at the next one there; coolant is a sequence
 // of its own.
 TEST_CASE("each function has its name and place", "[compare]") {
