@@ -15,11 +15,22 @@ constexpr double unseen_part = 0.7;  ///< fraction of the prior sigma: a larger 
                                      ///< means undetermined
 constexpr std::size_t periods_listed = 4;
 
+/// How the parameters of a group follow from the coefficients of its columns.
+Eigen::MatrixXd by_column(const ColumnGroup& group) {
+    return group.shape.size() > 0 ? group.shape
+                                  : Eigen::MatrixXd::Identity(group.columns(), group.columns());
+}
+
 std::vector<identification::FitParameter> parameters_of(const ColumnGroup& group,
                                                         const Eigen::VectorXd& own,
-                                                        const Eigen::VectorXd& sigma, double tau) {
+                                                        const Eigen::MatrixXd& covariance,
+                                                        double tau) {
     std::vector<identification::FitParameter> list;
     const std::vector<double> values = values_in(group, own);
+    const Eigen::MatrixXd by = by_column(group);
+    const Eigen::VectorXd sigma =
+        (by * covariance * by.transpose()).diagonal().cwiseMax(0.0).cwiseSqrt();
+    const Eigen::VectorXd before = tau * by.rowwise().norm();
     for (std::size_t j = 0; j < group.effect->parameters.size(); ++j) {
         const effects::EffectParameter& p = group.effect->parameters[j];
         identification::FitParameter fit{
@@ -27,7 +38,8 @@ std::vector<identification::FitParameter> parameters_of(const ColumnGroup& group
             values[j],          std::nan(""), 0.0,    0.0,         0.0};
         for (std::size_t k = 0; k < group.parameters.size(); ++k) {
             const double s = sigma(static_cast<Eigen::Index>(k));
-            if (group.parameters[k] == j && s < unseen_part * tau) fit.sigma = s * p.typical;
+            if (group.parameters[k] == j && s < unseen_part * before(static_cast<Eigen::Index>(k)))
+                fit.sigma = s * p.typical;
         }
         list.push_back(std::move(fit));
     }
@@ -96,7 +108,8 @@ std::vector<identification::Inseparable> unseen_of(const Design::Entry& entry) {
             groups.push_back({{name(j)}, {1.0}});
     const estimation::LinearFit fit =
         estimation::solve_ranked(entry.gram, Eigen::VectorXd::Zero(entry.gram.rows()));
-    for (const Eigen::VectorXd& v : fit.null_space) {
+    for (const Eigen::VectorXd& columns : fit.null_space) {
+        const Eigen::VectorXd v = group.feature_values(columns);
         identification::Inseparable unseen;
         for (Eigen::Index k = 0; k < v.size(); ++k)
             if (v(k) != 0.0) {
@@ -124,8 +137,7 @@ Cause cause_of(const FoundModel& f, const Claim& claim) {
     if (group.effect) {
         cause.effect = group.effect->name;
         cause.since = group.since;
-        cause.parameters = parameters_of(group, own, spread.diagonal().cwiseSqrt(),
-                                         f.model.variances.tau[claim.position]);
+        cause.parameters = parameters_of(group, own, spread, f.model.variances.tau[claim.position]);
         cause.unseen = unseen_of(f.design.groups()[member]);
         cause.what = group.effect->what + other_periods(f.judgement.equal_periods[claim.position]);
         cause.holds_between = f.judgement.interpolates[claim.position];

@@ -193,9 +193,7 @@ void name_rivals(const Design& design, const Offer& held, const std::vector<Offe
 void name_contender(Design& design, const Model& model, const Contender& contender,
                     const Eigen::VectorXd& part, Claim& claim) {
     if (probability_against(contender) >= rules::sure) return;
-    std::vector<std::size_t> instead = in_place_of(design, model, contender.model, part);
-    instead.insert(instead.end(), contender.slopes.begin(), contender.slopes.end());
-    for (const std::size_t k : instead) {
+    for (const std::size_t k : in_place_of(design, model, contender.model, part)) {
         const std::string& name = design.group(k).name;
         if (name == claim.name ||
             std::find(claim.rivals.begin(), claim.rivals.end(), name) != claim.rivals.end())
@@ -366,8 +364,11 @@ std::vector<Claim> claims_of(const Searching& search, const Model& model, const 
     }
     if (own > rules::most_own)  // contributions cancel, so none of them is reliable
         for (Claim& claim : claims) claim.probability = std::min(claim.probability, doubtful);
-    std::stable_sort(claims.begin(), claims.end(),
-                     [](const Claim& a, const Claim& b) { return a.share > b.share; });
+    // What is rather not there stands behind what is claimed.
+    std::stable_sort(claims.begin(), claims.end(), [](const Claim& a, const Claim& b) {
+        return std::pair(a.probability >= rules::claimed, a.share) >
+               std::pair(b.probability >= rules::claimed, b.share);
+    });
     return claims;
 }
 

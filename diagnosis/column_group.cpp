@@ -20,6 +20,11 @@ bool has_keys(const effects::Effect& effect) {
                        [](const effects::EffectParameter& p) { return p.is_key(); });
 }
 
+Eigen::VectorXd ColumnGroup::feature_values(const Eigen::VectorXd& coefficients) const {
+    if (shape.size() == 0) return coefficients;
+    return shape * coefficients;
+}
+
 void drop_sessions(Eigen::MatrixXd& columns, const emulator::Replay& replay,
                    const std::vector<std::string>& before) {
     for (std::size_t i = 0; i < replay.size() && !before.empty(); ++i)
@@ -71,11 +76,13 @@ Eigen::MatrixXd columns_on(const emulator::Replay& replay,
     if (group.kind == GroupKind::table)
         return table_features(replay, gradient, group.table) * group.shape;
     Eigen::MatrixXd columns =
-        Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(replay.size()), group.columns());
+        Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(replay.size()),
+                              static_cast<Eigen::Index>(group.parameters.size()));
     for (std::size_t k = 0; k < group.parameters.size(); ++k)
         columns.col(static_cast<Eigen::Index>(k)) = identification::effect_column(
             replay, gradient, {*group.effect, group.keys, group.parameters[k]});
     drop_sessions(columns, replay, group.before);
+    if (group.shape.size() > 0) return columns * group.shape;
     return columns;
 }
 

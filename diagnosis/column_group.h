@@ -46,11 +46,13 @@ struct ColumnGroup {
     bool machine_jump = false;                ///< of diagnosis/machine_jump.h
     const effects::Effect* effect = nullptr;  ///< textbook, periodic
     std::vector<double> keys;                 ///< of the effect; linear parameters 0
-    std::vector<std::size_t> parameters;      ///< of the effect, one for each column
+    std::vector<std::size_t> parameters;      ///< of the effect, one for each feature
     TableForm table;
     std::vector<Eigen::Index> features;  ///< columns of the design that the group combines
     Eigen::MatrixXd shape;               ///< features x columns; empty: one column for each feature
-    double log_prior = 0.0;              ///< log of the prior probability of being present
+    /// Values of the features for coefficients of the columns.
+    Eigen::VectorXd feature_values(const Eigen::VectorXd& coefficients) const;
+    double log_prior = 0.0;  ///< log of the prior probability of being present
     /// A change between sessions: the first session with it, and the earlier sessions without it.
     std::string since;
     std::vector<std::string> before;

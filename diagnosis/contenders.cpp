@@ -15,7 +15,6 @@ namespace {
 constexpr double least_overlap = 0.1;  ///< part of a contribution that a rival must do
 constexpr double hopeless = 60.0;      ///< evidence behind, nats, that no exchange makes up for
 constexpr double family = 0.8;         ///< probability below which a free form's family is open
-constexpr double main_part = 0.5;      ///< of a contribution: the cause is rather what does it
 constexpr std::size_t more = 2;        ///< members that it may have beyond the chosen model
 constexpr int most_replaced = 3;       ///< models that give way to a contender
 
@@ -52,15 +51,31 @@ bool is_part_of(const ColumnGroup& textbook, const TableForm& table) {
            (kind == effects::EffectKind::scale && table.motion == effects::EffectKind::positioning);
 }
 
+/// True for the angle of the mean line of an axis that runs on a bowed line: a straightness, in
+/// textbook or free form, of an axis of the plane.
+bool is_its_slope(const ColumnGroup& squareness, const ColumnGroup& straightness) {
+    if (squareness.kind != GroupKind::textbook || squareness.is_change() ||
+        squareness.effect->kind != effects::EffectKind::squareness)
+        return false;
+    const std::string& plane = squareness.effect->name;
+    if (straightness.kind == GroupKind::table)
+        return straightness.table.motion == effects::EffectKind::straightness &&
+               plane.substr(0, 2).find(straightness.table.axis.name) != std::string::npos;
+    return straightness.kind == GroupKind::textbook && !straightness.is_change() &&
+           straightness.effect->kind == effects::EffectKind::straightness &&
+           plane.substr(0, 2).find(straightness.name.substr(0, 1)) != std::string::npos;
+}
+
 /// Evidence of a model. An error with a form of its own has a textbook part as often as not: that
-/// is no second improbable cause beside the table.
+/// is no second improbable cause beside the table. Nor is the squareness of an axis with a bow.
 double weight_of(Design& design, const Model& model) {
     double sum = evidence(design, model);
     for (const std::size_t k : model.members) {
         const ColumnGroup& group = design.group(k);
         const auto own = [&](std::size_t m) {
-            return design.group(m).kind == GroupKind::table &&
-                   is_part_of(group, design.group(m).table);
+            return (design.group(m).kind == GroupKind::table &&
+                    is_part_of(group, design.group(m).table)) ||
+                   is_its_slope(group, design.group(m));
         };
         if (std::any_of(model.members.begin(), model.members.end(), own))
             sum += std::log(0.5) - group.log_prior;
@@ -123,69 +138,6 @@ std::vector<std::pair<double, std::size_t>> others_in(Design& design, const Mode
     return found;
 }
 
-/// True for an effect that may contain the slope of an axis's mean line.
-bool has_slope(const ColumnGroup& group) {
-    return group.kind == GroupKind::textbook &&
-           std::any_of(group.effect->parameters.begin(), group.effect->parameters.end(),
-                       [](const effects::EffectParameter& p) { return p.mean_line; });
-}
-
-bool is_squareness(const ColumnGroup& group) {
-    return group.kind == GroupKind::textbook && !group.is_change() &&
-           group.effect->kind == effects::EffectKind::squareness;
-}
-
-/// Fraction of a contribution that a group of one column does by itself.
-double alone(const Design& design, std::size_t group, const Eigen::VectorXd& part) {
-    const Eigen::VectorXd column = design.projection().beside(design.columns(group)).col(0);
-    const double along = column.dot(part);
-    return along * along / std::max(1e-300, column.squaredNorm() * part.squaredNorm());
-}
-
-/// What a group of one column leaves of a contribution.
-Eigen::VectorXd beside(const Design& design, std::size_t group, const Eigen::VectorXd& part) {
-    const Eigen::VectorXd column = design.projection().beside(design.columns(group)).col(0);
-    return part - column * (column.dot(part) / column.squaredNorm());
-}
-
-/// The chosen model with a squareness, and what that leaves of the cause without its slope, in
-/// place of a member that is mostly slope; a slope in its other direction is another squareness. An
-/// axis with a bow has such a squareness as often as not: it is no second improbable cause.
-std::optional<Contender> with_slope_apart(const Searching& search, const Standing& chosen,
-                                          FoldColumns& rows, std::size_t position) {
-    Design& design = search.design;
-    const ColumnGroup held = design.group(chosen.model.members[position]);
-    const Eigen::VectorXd part = contributions(design, chosen.model, fit_of(design, chosen.model))
-                                     .col(static_cast<Eigen::Index>(position));
-    Model model = without(chosen.model, position);
-    const auto added = [&](const std::function<bool(std::size_t)>& takes) -> std::optional<double> {
-        for (const Offer& offer : offers(design, model, is_cause)) {
-            if (!takes(offer.group) || offer.gain.mean < 0.0) continue;
-            model = tuned(design, search.setting, with(model, offer), 2);
-            return design.group(offer.group).log_prior;
-        }
-        return std::nullopt;
-    };
-    const auto squareness = [&](const Eigen::VectorXd& of, double least) {
-        return added([&](std::size_t k) {
-            return is_squareness(design.group(k)) && alone(design, k, of) > least;
-        });
-    };
-    const auto prior = squareness(part, main_part);
-    if (!prior) return std::nullopt;
-    const auto other = squareness(beside(design, model.members.back(), part), least_overlap);
-    added([&](std::size_t k) {
-        const ColumnGroup& group = design.group(k);
-        return group.name == held.name &&
-               std::none_of(group.parameters.begin(), group.parameters.end(),
-                            [&](std::size_t j) { return group.effect->parameters[j].mean_line; });
-    });
-    Contender contender = against(rows, chosen, std::move(model));
-    contender.ahead += std::log(0.5) - *prior;
-    if (other) contender.ahead += std::log(0.5) - *other;
-    return contender;
-}
-
 /// The best model without a cause, with up to `more` members more.
 Contender best_without(const Searching& search, const Standing& chosen, FoldColumns& rows,
                        const Excluded& excluded) {
@@ -218,32 +170,48 @@ double probability_against(const Contender& contender) {
 
 namespace {
 
-/// The best model without a cause; or, where its slope is most of it, the one in which that slope
-/// is squareness, if that is more likely. ISO 230-1 takes straightness from the mean line: its
-/// slope is squareness, and what is left of it may be there as well.
+/// The chosen model with the bow of a straightness taken from its mean line, and the slope of that
+/// line as squareness, in place of a bow about machine zero: on one side of it they look alike.
+std::optional<Contender> with_slope_apart(const Searching& search, const Standing& chosen,
+                                          FoldColumns& rows, std::size_t position) {
+    Design& design = search.design;
+    const ColumnGroup held = design.group(chosen.model.members[position]);
+    Model model = chosen.model;
+    for (std::size_t k = 0; k < design.groups().size(); ++k)
+        if (same_cause(design.group(k), held) && design.group(k).shape.size() > 0)
+            model.members[position] = k;
+    if (model.members == chosen.model.members) return std::nullopt;
+    model = tuned(design, search.setting, std::move(model), 2);
+    for (int direction = 0; direction < 2; ++direction) {
+        const std::vector<Offer> all = offers(design, model, is_cause);
+        const auto slope = std::find_if(all.begin(), all.end(), [&](const Offer& offer) {
+            return is_its_slope(design.group(offer.group), held) && offer.gain.mean >= 0.0;
+        });
+        if (slope == all.end()) break;
+        model = tuned(design, search.setting, with(std::move(model), *slope), 2);
+    }
+    if (std::none_of(model.members.begin(), model.members.end(),
+                     [&](std::size_t m) { return is_its_slope(design.group(m), held); }))
+        return std::nullopt;
+    return against(rows, chosen, std::move(model));
+}
+
+/// The best model without a cause; or, of a bow about machine zero, the one that takes its slope
+/// for squareness, if that is more likely.
 Contender contender_of(const Searching& search, const Standing& chosen, FoldColumns& rows,
                        const std::string& cause) {
-    Design& design = search.design;
-    Contender without_cause = best_without(search, chosen, rows, [&](const ColumnGroup& group) {
+    const Design& design = search.design;
+    Contender best = best_without(search, chosen, rows, [&](const ColumnGroup& group) {
         return is_cause(group.kind) && group.name == cause;
     });
-    const std::vector<std::size_t>& members = chosen.model.members;
-    const auto at = std::find_if(members.begin(), members.end(), [&](std::size_t k) {
-        return design.group(k).name == cause && has_slope(design.group(k));
-    });
-    if (at == members.end()) return without_cause;
-    std::optional<Contender> apart =
-        with_slope_apart(search, chosen, rows, static_cast<std::size_t>(at - members.begin()));
-    if (!apart) return without_cause;
-    std::vector<std::size_t> slopes;
-    if (probability_against(*apart) < rules::sure)
-        for (const std::size_t k : apart->model.members)
-            if (is_squareness(design.group(k)) &&
-                std::find(members.begin(), members.end(), k) == members.end())
-                slopes.push_back(k);
-    Contender best =
-        apart->ahead > without_cause.ahead ? std::move(*apart) : std::move(without_cause);
-    best.slopes = std::move(slopes);
+    for (std::size_t k = 0; k < chosen.model.members.size(); ++k) {
+        const ColumnGroup& group = design.group(chosen.model.members[k]);
+        if (group.name != cause || group.kind != GroupKind::textbook || group.shape.size() > 0 ||
+            group.effect->kind != effects::EffectKind::straightness)
+            continue;
+        auto apart = with_slope_apart(search, chosen, rows, k);
+        if (apart && apart->ahead > best.ahead) best = std::move(*apart);
+    }
     return best;
 }
 
@@ -274,6 +242,17 @@ Standing whole(const Searching& search, FoldColumns& rows, const Model& model) {
     return {rows, grown(search.design, search.setting, model)};
 }
 
+/// Members replaced by others that the evidence prefers to them, where left-out readings do not
+/// object: what a member imitated together with an idle one that was removed, another may do alone.
+Model exchanged(const Searching& search, FoldColumns& rows, Model model) {
+    const Model other = swapped(search.design, search.setting, model);
+    if (other.members == model.members ||
+        !(weight_of(search.design, other) > weight_of(search.design, model) + better))
+        return model;
+    const Saving saving = saving_of(loss_of(rows, other), loss_of(rows, model));
+    return saving.sum < saving.spread ? other : model;
+}
+
 /// A model that takes the place of the chosen one, and how it stands.
 struct Successor {
     Model model;
@@ -288,7 +267,8 @@ std::optional<Successor> successor(const Searching& search, const Standing& chos
     if (contender.ahead < better || contender.predicted >= contender.spread ||
         contender.model.members.size() > most)
         return std::nullopt;
-    Model model = without_idle_members(rows, search.setting, contender.model);
+    Model model =
+        exchanged(search, rows, without_idle_members(rows, search.setting, contender.model));
     Standing standing = whole(search, rows, model);
     if (standing.weight < chosen.weight + better) return std::nullopt;
     return Successor{std::move(model), std::move(standing)};
@@ -325,7 +305,7 @@ Challenged unchallenged(Model model) {
 
 Challenged challenged(FoldColumns& rows, const SearchSetting& setting, Model model) {
     const Searching search{rows.design(), setting};
-    Challenged result{std::move(model), {}, {}};
+    Challenged result{exchanged(search, rows, std::move(model)), {}, {}};
     Standing chosen = whole(search, rows, result.model);
     for (int replaced = 0; replaced < most_replaced; ++replaced) {
         std::optional<Successor> next = challenge_each(search, chosen, rows, result, true);

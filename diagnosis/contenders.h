@@ -23,8 +23,6 @@ struct Contender {
     /// Log likelihood of left-out readings, chosen model minus contender, and the standard
     /// deviation of this sum that the scatter of the blocks implies, nats.
     double predicted = 0.0, spread = 0.0;
-    /// Squarenesses that may be the slope of the member, where the readings leave that open.
-    std::vector<std::size_t> slopes = {};
 };
 
 /// Probability of the chosen model against the contender, if other blocks had been measured: the

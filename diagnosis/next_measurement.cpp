@@ -68,6 +68,7 @@ ColumnGroup with_all_parameters(ColumnGroup rival) {
     for (std::size_t j = 0; j < rival.effect->parameters.size(); ++j)
         if (!rival.effect->parameters[j].is_key()) rival.parameters.push_back(j);
     rival.features.assign(rival.parameters.size(), 0);  // counts the columns
+    rival.shape.resize(0, 0);
     return rival;
 }
 

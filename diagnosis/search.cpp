@@ -89,6 +89,8 @@ bool grow(Design& design, const SearchSetting& setting, Model& model, bool with_
     return true;
 }
 
+}  // namespace
+
 Model swapped(Design& design, const SearchSetting& setting, Model model) {
     std::optional<OffersBeside> beside;
     std::vector<Offer> worth;
@@ -113,6 +115,8 @@ Model swapped(Design& design, const SearchSetting& setting, Model model) {
     }
     return model;
 }
+
+namespace {
 
 bool named(GroupKind kind) {
     return kind == GroupKind::textbook || kind == GroupKind::periodic;

@@ -69,6 +69,8 @@ double evidence(Design& design, const Model& model);
 
 /// Removes the weakest members as long as one does not pay for its prior.
 Model pruned(Design& design, const SearchSetting& setting, Model model);
+/// Replaces members one by one by offers that raise the score.
+Model swapped(Design& design, const SearchSetting& setting, Model model);
 /// Adds members one by one as long as the score increases.
 Model grown(Design& design, const SearchSetting& setting, Model model);
 /// Removes weak members of a grown model, swaps members for better ones, and changes lengths of

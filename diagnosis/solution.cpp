@@ -124,8 +124,9 @@ Eigen::VectorXd left_mm(const Prepared& prepared, const Design& design, const Mo
 
 std::vector<double> values_in(const ColumnGroup& group, const Eigen::VectorXd& coefficients) {
     std::vector<double> values = group.keys;
+    const Eigen::VectorXd feature = group.feature_values(coefficients);
     for (std::size_t k = 0; k < group.parameters.size(); ++k)
-        values[group.parameters[k]] = coefficients(static_cast<Eigen::Index>(k)) *
+        values[group.parameters[k]] = feature(static_cast<Eigen::Index>(k)) *
                                       group.effect->parameters[group.parameters[k]].typical;
     return values;
 }

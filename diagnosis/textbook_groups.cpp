@@ -7,6 +7,7 @@
 
 #include "diagnosis/candidate_groups.h"
 #include "diagnosis/rules.h"
+#include "effects/polynomials.h"
 
 namespace trunnion::diagnosis {
 namespace {
@@ -120,18 +121,57 @@ bool offered(const Prepared& p, const effects::Effect& effect, const Since& sinc
     return !since.before.empty() || !modelled(p, effect);
 }
 
+/// Slope of the mean line of q^2 over the positions that were read, mm.
+double slope_of_square_mm(const Prepared& p, Axis axis) {
+    std::vector<double> places;
+    for (std::size_t i = 0; i < p.replay.size(); ++i)
+        places.push_back(p.replay.sample(i).position[axis]);
+    const Eigen::Map<const Eigen::ArrayXd> q(places.data(),
+                                             static_cast<Eigen::Index>(places.size()));
+    const Eigen::ArrayXd way = q - q.mean();
+    const double square = way.square().sum();
+    return square > 0.0 ? (way * q.square()).sum() / square : 0.0;
+}
+
+/// Binds the slope in each direction to the bow, so that the bow is one about the mean line of the
+/// measured travel. ISO 230-1 takes straightness from that line; its slope is squareness.
+void take_bow_from_mean_line(const Prepared& p, ColumnGroup& group) {
+    const auto& parameters = group.effect->parameters;
+    const double slope = slope_of_square_mm(p, *group.effect->axis) / effects::reach_mm;
+    std::vector<Eigen::VectorXd> columns;
+    const auto count = static_cast<Eigen::Index>(group.parameters.size());
+    for (Eigen::Index k = 0; k < count; ++k) {
+        const std::size_t bow = group.parameters[static_cast<std::size_t>(k)];
+        if (parameters[bow].mean_line) continue;
+        Eigen::VectorXd column = Eigen::VectorXd::Unit(count, k);
+        // The slope of the same direction stands before it.
+        if (k > 0 && group.parameters[static_cast<std::size_t>(k - 1)] == bow - 1)
+            column(k - 1) = -slope * parameters[bow].typical / parameters[bow - 1].typical;
+        columns.push_back(std::move(column));
+    }
+    group.shape.resize(count, static_cast<Eigen::Index>(columns.size()));
+    for (std::size_t k = 0; k < columns.size(); ++k)
+        group.shape.col(static_cast<Eigen::Index>(k)) = columns[k];
+}
+
 /// Adds all forms of an effect whose columns are in the design.
-void add_forms(Design& design, const EffectColumns& ready, Eigen::Index first, const Since& since,
-               double log_prior) {
+void add_forms(Design& design, const Prepared& prepared, const EffectColumns& ready,
+               const Since& since, double log_prior) {
     const auto forms = simpler_forms(*ready.effect);
+    const auto& parameters = ready.effect->parameters;
+    const bool has_mean_line =
+        since.before.empty() &&
+        std::any_of(parameters.begin(), parameters.end(),
+                    [](const effects::EffectParameter& q) { return q.mean_line; });
     const auto add = [&](const Takes& takes) {
-        ColumnGroup group = group_of(*ready.effect, ready.effect->zeros(), ready.material,
-                                     first + ready.first, takes);
+        ColumnGroup group =
+            group_of(*ready.effect, ready.effect->zeros(), ready.material, ready.first, takes);
+        if (has_mean_line && !takes) take_bow_from_mean_line(prepared, group);
         group.log_prior = log_prior - std::log(1.0 + static_cast<double>(forms.size()));
         group.since = since.session;
         group.before = since.before;
         if (group.is_change()) group.name += " since " + since.session;
-        if (!group.features.empty()) design.add(std::move(group));
+        if (group.columns() > 0) design.add(std::move(group));
     };
     add({});
     for (const Takes& takes : forms) add(takes);
@@ -155,7 +195,10 @@ Eigen::Index add_effects(Design& design, const Prepared& prepared, const Whitene
     double prior = rules::effect_prior;
     if (!since.before.empty())
         prior -= std::log(static_cast<double>(prepared.replay.sessions().size() - 1));
-    for (const EffectColumns& r : list) add_forms(design, r, first, since, prior);
+    for (EffectColumns& r : list) {
+        r.first += first;
+        add_forms(design, prepared, r, since, prior);
+    }
     return all;
 }
 

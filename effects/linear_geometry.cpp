@@ -5,11 +5,10 @@
 #include <cmath>
 
 #include "effects/models.h"
+#include "effects/polynomials.h"
 
 namespace trunnion::effects {
 namespace {
-
-constexpr double reach_mm = 200.0;  ///< travel at which polynomial coefficients are specified
 
 /// Sum over n of value[n] (q / reach)^(first + n).
 double polynomial(double q, int first, std::span<const double> value) {
