@@ -115,18 +115,3 @@ TEST_CASE("a pass that one side has more often is named by its own block", "[com
     CHECK(said(compare_texts(two, three, bc_table()), "K3 instead of K2"));
     CHECK(said(compare_texts(three, two, bc_table()), "K2 instead of K3"));
 }
-
-TEST_CASE("the worst place is drawn once where it is the first difference, on either side",
-          "[compare]") {
-    const std::string without =
-        "O1\nG90 G21 G94 G54\nT1 M6\nS5000 M3\nG0 X0. Y0. Z50.\nG1 Z-1. F200.\nX10.\nG0 Z50.\n"
-        "G0 X20.\nG1 Z-1.\nX30.\nG0 Z50.\nM30\n";
-    const std::string with =
-        replaced(without, "G0 X20.\n", "G0 X15. Y40.\nG1 Z-2.\nG0 Z50.\nG0 X20. Y0.\n");
-    for (const regression::Comparison& r :
-         {compare_texts(without, with, bc_table()), compare_texts(with, without, bc_table())}) {
-        REQUIRE(r.picture.closeups.size() == 1);
-        CHECK(r.picture.closeups[0].first);
-        CHECK(r.picture.closeups[0].worst);
-    }
-}
