@@ -5,9 +5,10 @@
 
 The observer knows the machine, the campaign, the noise and its correlation, that exactly one effect of the registry
 is there with 2 to 6 sigma, in this generator's own form, and that the axes have the generator's smooth errors
-(waves of 100 to 600 mm, random phases and heights, one common size of 0.7 to 12 sigma). It compares the exact
-Gaussian evidence of all effects, averaged over keys, sizes and the size of the forms. No diagnosis knows as much;
-what this observer does not name first, the readings do not decide.
+(waves of 100 to 600 mm, random phases and heights, one common size of 0.7 to 12 sigma). It compares the
+Gaussian evidence of all effects, averaged over keys (a few dozen drawn settings of each), sizes and the size of the
+forms; small errors are linear. No diagnosis knows as much; what this observer does not name first, the readings hardly
+decide.
 """
 import argparse
 import json
