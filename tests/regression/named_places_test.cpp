@@ -115,3 +115,18 @@ TEST_CASE("a pass that one side has more often is named by its own block", "[com
     CHECK(said(compare_texts(two, three, bc_table()), "K3 instead of K2"));
     CHECK(said(compare_texts(three, two, bc_table()), "K2 instead of K3"));
 }
+
+TEST_CASE("a detour that only one side makes is drawn once, as first and as worst place",
+          "[compare]") {
+    const std::string straight =
+        "O1\nG90 G21 G94 G54\nT1 M6\nS5000 M3\nG0 X0. Y0. Z50.\nG1 Z-1. F200.\nX10.\nX20.\nY30.\n"
+        "G0 Z50.\nM30\n";
+    const std::string detour = replaced(straight, "X10.\n", "X10.\nY5.\nY0.\n");
+    for (const regression::Comparison& r : {compare_texts(straight, detour, bc_table()),
+                                            compare_texts(detour, straight, bc_table())}) {
+        REQUIRE(r.picture.closeups.size() == 1);
+        CHECK(r.picture.closeups[0].first);
+        CHECK(r.picture.closeups[0].worst);
+        CHECK(r.picture.closeups[0].apart_mm() == Approx(5.0));
+    }
+}
