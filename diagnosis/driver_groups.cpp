@@ -19,6 +19,7 @@ struct Driver {
     std::string by, component, text;
     std::vector<std::vector<double>> columns;  ///< by column, one entry for each row
     bool of_time = false;
+    bool only_where = false;  ///< says where, but stands in no model: causes describe the same
 };
 
 constexpr double usual_mm = 5e-3;  ///< typical size of a dependence on a driver
@@ -69,7 +70,7 @@ class DriverList {
     /// Adds columns f * carrier for all pairs.
     void add(std::string by, std::string component, std::string text,
              const std::vector<RowFunction>& functions, const std::vector<RowFunction>& carriers) {
-        drivers_.push_back({std::move(by), std::move(component), std::move(text), {}, false});
+        drivers_.push_back({std::move(by), std::move(component), std::move(text), {}});
         extend(functions, carriers);
     }
 
@@ -174,6 +175,8 @@ class DriverList {
             carriers.push_back(axis_response(axis));
             const std::string& name = table_.names[axis];
             add(name, "machine frame", "follows the position of " + name, functions, carriers);
+            // A shift that follows a linear axis is its positioning and straightness, as a table.
+            drivers_.back().only_where = !turns(axis);
             if (!turns(axis)) continue;
             add(name, "angles", "follows the position of " + name + " as a tilt", functions,
                 {tilt_response(axis, 0), tilt_response(axis, 1), tilt_response(axis, 2)});
@@ -334,7 +337,8 @@ void add_driver_groups(Design& design, const Prepared& prepared, const Whitener&
         const Eigen::Index first = design.add_features(columns);
         for (Eigen::Index k = 0; k < columns.cols(); ++k) group.features.push_back(first + k);
         group.log_prior = prior;
-        design.add_beside(std::move(group), owned);
+        const std::size_t added = design.add_beside(std::move(group), owned);
+        if (driver.only_where) design.hide(added);
     }
 }
 

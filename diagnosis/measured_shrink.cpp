@@ -15,6 +15,7 @@ struct SquaredSums {
     std::vector<double> before, after, noise, rows;
     double independent = 0.0;
     double whitened_before = 0.0, whitened_after = 0.0;  ///< divided by the variance of the noise
+    double freedom = 0.0;  ///< readings, less the zeros that they determine
 };
 
 double shrink_of(double before, double after, double noise) {
@@ -28,26 +29,58 @@ double total(const std::vector<double>& v) {
     return sum;
 }
 
+/// What is measured beside a prediction, mm; the zero of each test and session of a laser or
+/// autocollimator is free, also in readings that took no part in the fit.
+std::vector<double> left_of(const emulator::Replay& replay, const records::ReadingTable& table,
+                            const std::vector<double>& predicted,
+                            const Eigen::VectorXd& sigma_mm) {
+    std::vector<double> left(predicted.size());
+    for (std::size_t k = 0; k < left.size(); ++k)
+        left[k] = *table.rows[replay.table_row(k)].value_mm - predicted[k];
+    for (const emulator::ZeroGroup& group : replay.zeros()) {
+        double sum = 0.0, weights = 0.0;
+        for (const std::size_t k : group.rows) {
+            const double weight = std::pow(sigma_mm(static_cast<Eigen::Index>(k)), -2);
+            sum += weight * left[k];
+            weights += weight;
+        }
+        for (const std::size_t k : group.rows) left[k] -= sum / weights;
+    }
+    return left;
+}
+
+/// Part of the noise that remains in each reading beside the zero of its test.
+std::vector<double> noise_left(const emulator::Replay& replay) {
+    std::vector<double> part(replay.size(), 1.0);
+    for (const emulator::ZeroGroup& group : replay.zeros())
+        for (const std::size_t k : group.rows)
+            part[k] -= 1.0 / static_cast<double>(group.rows.size());
+    return part;
+}
+
 SquaredSums sums_of(const Outcome& f, const setup::Setup& setup,
                     const records::ReadingTable& table) {
     const emulator::Replay replay(f.prepared.base.setup, table), fitted(setup, table);
-    const std::vector<double> before = replay.predict(f.prepared.base.models);
-    const std::vector<double> after = fitted.predict(effects::active_models(setup));
     const identification::RowNoise noise =
         identification::row_noise(f.prepared.base.setup, table, replay);
+    const std::vector<double> before =
+        left_of(replay, table, replay.predict(f.prepared.base.models), noise.sigma_mm);
+    const std::vector<double> after =
+        left_of(fitted, table, fitted.predict(effects::active_models(setup)), noise.sigma_mm);
+    const std::vector<double> part = noise_left(replay);
     SquaredSums sums;
     for (const NoiseBlock& block : noise_blocks(replay, table)) {
         double b = 0, a = 0, n = 0;
         for (const Eigen::Index i : block.rows) {
             const auto k = static_cast<std::size_t>(i);
-            const double value = *table.rows[replay.table_row(k)].value_mm;
             const double scale = f.noise.model.of(block.device).scale;
-            b += std::pow(value - before[k], 2);
-            a += std::pow(value - after[k], 2);
+            b += std::pow(before[k], 2);
+            a += std::pow(after[k], 2);
             const double own = f.judgement.floor * std::pow(scale * noise.sigma_mm(i), 2);
-            n += own;
-            sums.whitened_before += std::pow(value - before[k], 2) / own;
-            sums.whitened_after += std::pow(value - after[k], 2) / own;
+            n += part[k] * own;
+            sums.whitened_before += std::pow(before[k], 2) / own;
+            sums.whitened_after += std::pow(after[k], 2) / own;
+            sums.freedom += part[k];
         }
         sums.before.push_back(b);
         sums.after.push_back(a);
@@ -63,7 +96,7 @@ SquaredSums sums_of(const Outcome& f, const setup::Setup& setup,
 double measured_part(const Outcome& f, const setup::Setup& setup,
                      const records::ReadingTable& holdout) {
     const SquaredSums sums = sums_of(f, setup, holdout);
-    const double rows = total(sums.rows), excess = sums.whitened_before - rows;
+    const double rows = sums.freedom, excess = sums.whitened_before - rows;
     const double chance = 3.0 * std::sqrt(2.0 * rows);  // three sigma of the squared noise itself
     // Readings without a gap say nothing of the causes, unless these would make one.
     if (excess < chance) return sums.whitened_after - sums.whitened_before < chance ? 1.0 : 0.0;
@@ -75,7 +108,7 @@ HeldOut measured_shrink(const Outcome& f, const setup::Setup& setup,
     constexpr int draws = 400;
     const SquaredSums sums = sums_of(f, setup, holdout);
     const double before = total(sums.before), after = total(sums.after), noise = total(sums.noise);
-    const double rows = std::max(1.0, total(sums.rows));
+    const double rows = std::max(1.0, sums.freedom);
     const double micro = records::micro_per_one(holdout);
     HeldOut h{micro * std::sqrt(before / rows),
               micro * std::sqrt(after / rows),

@@ -7,15 +7,16 @@
 
 #include "diagnosis/measurements.h"
 #include "diagnosis/rules.h"
+#include "estimation/inner_products.h"
 #include "estimation/ranked_least_squares.h"
 
 namespace trunnion::diagnosis {
 namespace {
 
-/// Columns for one set of rows: base (by name), claimed and rival, in sigma.
+/// Base columns of one set of rows, in sigma, and their products with each other.
 struct Block {
     std::vector<std::string> names;
-    Eigen::MatrixXd base;
+    Eigen::MatrixXd base, square;
 };
 
 std::vector<std::string> names_of(const std::vector<identification::FitParameter>& parameters) {
@@ -39,6 +40,14 @@ Eigen::MatrixXd whitened(const Whitener& whitener, Eigen::MatrixXd columns) {
     return columns;
 }
 
+Block block_of(const Whitener& whitener,
+               const std::vector<identification::FitParameter>& parameters,
+               const Eigen::MatrixXd& columns) {
+    Block block{names_of(parameters), whitened(whitener, columns), {}};
+    block.square = estimation::inner_products(block.base);
+    return block;
+}
+
 Worked work_out(Measurement m, const setup::Setup& setup, const effects::Catalogue& catalogue,
                 const std::vector<std::string>& effects, const NoiseModel& noise) {
     Worked w;
@@ -52,7 +61,7 @@ Worked work_out(Measurement m, const setup::Setup& setup, const effects::Catalog
         identification::row_noise(setup, w.measurement.table, *w.replay).sigma_mm);
     const identification::BaseColumns base =
         identification::base_columns(setup, *w.replay, catalogue, effects, w.gradient);
-    w.block = {names_of(base.parameters), whitened(*w.whitener, base.columns)};
+    w.block = block_of(*w.whitener, base.parameters, base.columns);
     return w;
 }
 
@@ -73,65 +82,85 @@ ColumnGroup with_all_parameters(ColumnGroup rival) {
 }
 
 /// Squared part of `target` that neither base nor rival can reproduce; base columns are matched by
-/// name.
+/// name. Holds products only, so that a copy with one measurement more costs little.
 class Mimic {
   public:
+    explicit Mimic(Eigen::Index rival_columns)
+        : beside_(0, rival_columns),
+          rival_square_(Eigen::MatrixXd::Zero(rival_columns, rival_columns)),
+          rival_product_(Eigen::VectorXd::Zero(rival_columns)) {}
+
     void add(const Block& block, const Eigen::MatrixXd& rival, const Eigen::VectorXd& target) {
+        const std::vector<Eigen::Index> place = places_of(block.names);
+        square_(place, place) += block.square;
+        beside_(place, Eigen::all) += estimation::inner_products(block.base, rival);
+        product_(place) += block.base.transpose() * target;
+        rival_square_ += estimation::inner_products(rival);
+        rival_product_ += rival.transpose() * target;
+        energy_ += target.squaredNorm();
+    }
+
+    double left() const {
+        const Eigen::Index p = square_.rows(), q = rival_square_.rows();
+        Eigen::MatrixXd square(p + q, p + q);
+        square << square_, beside_, beside_.transpose(), rival_square_;
+        Eigen::VectorXd product(p + q);
+        product << product_, rival_product_;
+        return beside(square, product);
+    }
+    /// Without the rival: the part that the base cannot reproduce, i.e. the contribution of the
+    /// target.
+    double left_by_base() const { return beside(square_, product_); }
+
+  private:
+    /// Rows of the products for these names; new ones are added.
+    std::vector<Eigen::Index> places_of(const std::vector<std::string>& names) {
         std::vector<Eigen::Index> place;
-        for (const std::string& name : block.names) {
+        for (const std::string& name : names) {
             const auto it = std::find(names_.begin(), names_.end(), name);
             place.push_back(it - names_.begin());
             if (it == names_.end()) names_.push_back(name);
         }
-        pieces_.push_back({place, block.base, rival, target});
+        const auto grown = static_cast<Eigen::Index>(names_.size());
+        square_.conservativeResizeLike(Eigen::MatrixXd::Zero(grown, grown));
+        beside_.conservativeResizeLike(Eigen::MatrixXd::Zero(grown, beside_.cols()));
+        product_.conservativeResizeLike(Eigen::VectorXd::Zero(grown));
+        return place;
     }
 
-    /// Without the rival: the part that the base cannot reproduce, i.e. the contribution of the
-    /// target.
-    double left(bool with_rival = true) const {
-        const auto q = with_rival ? pieces_.front().rival.cols() : 0;
-        const auto p = static_cast<Eigen::Index>(names_.size()) + q;
-        Eigen::MatrixXd square = Eigen::MatrixXd::Zero(p, p);
-        Eigen::VectorXd product = Eigen::VectorXd::Zero(p);
-        double energy = 0.0;
-        for (const Piece& piece : pieces_) {
-            Eigen::MatrixXd a = Eigen::MatrixXd::Zero(piece.target.size(), p);
-            for (std::size_t j = 0; j < piece.place.size(); ++j)
-                a.col(piece.place[j]) = piece.base.col(static_cast<Eigen::Index>(j));
-            if (with_rival) a.rightCols(q) = piece.rival;
-            square.noalias() += a.transpose() * a;
-            product.noalias() += a.transpose() * piece.target;
-            energy += piece.target.squaredNorm();
-        }
-        return std::max(0.0, energy - product.dot(estimation::solve_ranked(square, product).value));
+    double beside(const Eigen::MatrixXd& square, const Eigen::VectorXd& product) const {
+        return std::max(0.0, energy_ - estimation::explained(square, product));
     }
 
-  private:
-    struct Piece {
-        std::vector<Eigen::Index> place;
-        Eigen::MatrixXd base, rival;
-        Eigen::VectorXd target;
-    };
     std::vector<std::string> names_;
-    std::vector<Piece> pieces_;
+    Eigen::MatrixXd square_, beside_;  ///< of the base; of the base with the rival
+    Eigen::VectorXd product_;
+    Eigen::MatrixXd rival_square_;
+    Eigen::VectorXd rival_product_;
+    double energy_ = 0.0;
 };
 
 /// Factor on the loss at which a rival is dropped, for the noise of the new readings.
 constexpr double settled_margin = 1.5;
 
+/// The readings so far.
+struct Present {
+    const Prepared& prepared;
+    Whitener whitener;
+    Block block;
+};
+
 NextMeasurement best_for(const AmbiguousPair& pair, const std::vector<Worked>& list,
-                         const Prepared& prepared, const NoiseModel& noise) {
-    const identification::BaseModel& base = prepared.base;
-    const Whitener whitener(prepared.replay, prepared.blocks, noise, base.sigma_mm);
+                         const Present& present) {
     const auto columns = [&](const ColumnGroup& group) {
-        return whitened(whitener, columns_on(prepared.replay, base.gradient, group));
+        return whitened(
+            present.whitener,
+            columns_on(present.prepared.replay, present.prepared.base.gradient, group));
     };
-    Mimic now;
-    const Block old{names_of(base.parameters), whitened(whitener, base.columns)};
     const ColumnGroup rival_group = with_all_parameters(*pair.rival);
     const Eigen::MatrixXd rival = columns(rival_group);
-    const Eigen::VectorXd target = columns(*pair.claimed) * pair.values;
-    now.add(old, rival, target);
+    Mimic now(rival.cols());
+    now.add(present.block, rival, columns(*pair.claimed) * pair.values);
     const double before = now.left();
     NextMeasurement best{pair.claimed->name, pair.rival->name, "", "", 0.0, 0.0};
     double rate = 0.0;
@@ -143,7 +172,7 @@ NextMeasurement best_for(const AmbiguousPair& pair, const std::vector<Worked>& l
         if (gain < 3.0) continue;
         // Degree of separation for each minute; beyond full separation there is no further benefit.
         const double settled =
-            std::min(1.0, lost / (settled_margin * rules::rival_limit(then.left(false))));
+            std::min(1.0, lost / (settled_margin * rules::rival_limit(then.left_by_base())));
         if (settled * settled / w.measurement.minutes <= rate) continue;
         rate = settled * settled / w.measurement.minutes;
         best.log_bayes_factor = gain;
@@ -171,6 +200,9 @@ std::vector<NextMeasurement> plan_next(const Prepared& prepared, const NoiseMode
     const auto stopped = [&] { return go_on && !go_on(); };
     std::vector<NextMeasurement> plan;
     if (pairs.empty()) return plan;
+    Whitener whitener(prepared.replay, prepared.blocks, noise, base.sigma_mm);
+    Block block = block_of(whitener, base.parameters, base.columns);
+    const Present present{prepared, std::move(whitener), std::move(block)};
     std::vector<Worked> list;
     for (Measurement& m : ready_measurements(base.setup, end_s + 600.0)) {
         if (stopped()) return plan;
@@ -179,7 +211,7 @@ std::vector<NextMeasurement> plan_next(const Prepared& prepared, const NoiseMode
     }
     for (const AmbiguousPair& pair : pairs) {
         if (stopped()) break;
-        plan.push_back(best_for(pair, list, prepared, noise));
+        plan.push_back(best_for(pair, list, present));
     }
     std::stable_sort(plan.begin(), plan.end(),
                      [](const NextMeasurement& a, const NextMeasurement& b) {

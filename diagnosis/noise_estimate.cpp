@@ -151,6 +151,12 @@ DeviceNoise estimate(const emulator::Replay& replay, records::Device device,
 /// session. What differs between sessions may be the machine, not its noise.
 using Key = std::tuple<std::size_t, int, int, int, std::vector<long>, std::vector<int>>;
 
+/// Readings of a laser, autocollimator or encoder are compared one by one, each with the last one at
+/// the same target from the same side (ISO 230-2).
+bool has_single_repeats(records::Device device) {
+    return device == records::Device::linear || device == records::Device::angle;
+}
+
 Key key_of(const emulator::Replay& replay, const records::ReadingTable& table, std::size_t i) {
     const emulator::Contact& contact = replay.contact(i);
     const AxisSample& sample = replay.sample(i);
@@ -158,7 +164,8 @@ Key key_of(const emulator::Replay& replay, const records::ReadingTable& table, s
     std::vector<int> travel;
     for (const Axis axis : table.axes) {
         place.push_back(std::lround(sample.position[axis] * 1e5));
-        if (table.names.is_rotary(axis) || contact.device == records::Device::ballbar)
+        if (table.names.is_rotary(axis) || contact.device == records::Device::ballbar ||
+            has_single_repeats(contact.device))
             travel.push_back(sample.travel[index_of(axis)]);
     }
     if (contact.device != records::Device::ballbar)
@@ -173,6 +180,19 @@ Key key_of(const emulator::Replay& replay, const records::ReadingTable& table, s
             static_cast<int>(sample.mode),
             place,
             travel};
+}
+
+/// Rows that are compared as a whole: the blocks, or single readings.
+std::vector<NoiseBlock> compared_rows(const std::vector<NoiseBlock>& blocks) {
+    std::vector<NoiseBlock> list;
+    for (const NoiseBlock& block : blocks) {
+        if (!has_single_repeats(block.device)) {
+            list.push_back(block);
+            continue;
+        }
+        for (const Eigen::Index row : block.rows) list.push_back({block.device, {row}});
+    }
+    return list;
 }
 
 /// Pairs of blocks that repeat each other row by row.
@@ -220,9 +240,22 @@ void remove_shift(const emulator::Replay& replay, std::vector<Stretch>& stretche
 
 }  // namespace
 
+/// Robust size of the differences, at least 1.
+double typical_size(const std::vector<Stretch>& stretches) {
+    std::vector<double> all;
+    for (const Stretch& s : stretches) all.insert(all.end(), s.value.begin(), s.value.end());
+    return std::max(1.0, estimation::robust_deviation(std::move(all)));
+}
+
+/// Fewer differences say no more than what is stated or usual.
+std::size_t fewest(records::Device device) {
+    return has_single_repeats(device) ? 10 : 30;
+}
+
 NoiseModel noise_from_repeats(const RepeatedRows& rows, const Eigen::VectorXd& residual_mm,
                               const Eigen::VectorXd& sigma_mm, const NoiseModel& start) {
-    const auto& [replay, table, blocks] = rows;
+    const auto& [replay, table, visits] = rows;
+    const std::vector<NoiseBlock> blocks = compared_rows(visits);
     NoiseModel noise = start;
     std::map<records::Device, std::vector<Stretch>> stretches;
     for (const auto& [first, second] : repeated_blocks(replay, table, blocks)) {
@@ -243,14 +276,16 @@ NoiseModel noise_from_repeats(const RepeatedRows& rows, const Eigen::VectorXd& r
         auto& list = stretches[device];
         std::size_t count = 0;
         for (const Stretch& s : list) count += static_cast<std::size_t>(s.value.size());
-        if (count < 30) {
+        if (count < fewest(device)) {
             all = false;
             continue;
         }
         if (device != records::Device::ballbar) remove_shift(replay, list);
+        const double usual =
+            start.source == NoiseSource::assumed ? typical_size(list) : 1.0;  // of a difference
         for (Stretch& s : list)  // a few outliers must not determine the noise
-            s.value = s.value.cwiseMax(-6.0).cwiseMin(6.0);
-        noise.of(device) = estimate(replay, device, list, 0.05, 4.0);
+            s.value = s.value.cwiseMax(-6.0 * usual).cwiseMin(6.0 * usual);
+        noise.of(device) = estimate(replay, device, list, 0.05 * usual, 4.0 * usual);
         const double independent = noise.of(device).independent(static_cast<double>(count));
         noise.doubt = std::max(noise.doubt, std::sqrt(2.0 / independent));
     }

@@ -24,6 +24,8 @@ class OffersBeside {
                                std::optional<std::size_t> instead = std::nullopt);
     /// Log likelihood with this change, minus that of the model.
     double gained(std::size_t position, std::optional<std::size_t> instead = std::nullopt);
+    /// The other forms of a textbook member, beside the model without it.
+    std::vector<Offer> other_forms(std::size_t position);
     /// Groups that are kept as rivals only, beside the model without a member.
     std::vector<Offer> only_rivals(std::size_t position);
 

@@ -7,6 +7,8 @@ namespace trunnion::diagnosis::rules {
 
 // Log prior probabilities of being present.
 constexpr double effect_prior = -3.2188758248682006;  ///< ln 0.04: a catalogue effect
+constexpr double gain_prior = -5.521460917862246;     ///< ln 0.004: a wrong gain of the instrument,
+                                                      ///< which is calibrated (assumed)
 constexpr double table_prior = -3.912023005428146;    ///< ln 0.02: free form, driver
 
 // A gap is reported when both the evidence and the left-out readings support it.
@@ -23,6 +25,9 @@ constexpr double explained = 0.8, partly = 0.5;  ///< of H
 constexpr double between_part = 0.2;   ///< maximum part of the gap carried by tables that do not
                                        ///< interpolate
 constexpr double between_least = 0.5;  ///< part that a table must predict at left-out positions
+
+constexpr double many_places = 8.0;    ///< ... of fewer with this probability of no accident
+constexpr double between_sure = 0.8;
 
 constexpr double least_share = 0.05;  ///< of the gap: smaller effects are background ...
 constexpr double least_rms = 0.7;     ///< ... unless they move the readings by this number of sigma

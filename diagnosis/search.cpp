@@ -15,10 +15,6 @@ constexpr std::size_t swap_tried = 3;  ///< offers tried in place of a member
 constexpr double tuning_gain = 10.0;   ///< maximum gain by tuning the variances of a changed model,
                                        ///< nats
 
-bool in(const Model& model, std::size_t group) {
-    return std::find(model.members.begin(), model.members.end(), group) != model.members.end();
-}
-
 /// The zeros of tests, which are always offered.
 std::vector<std::size_t> zeros(const Design& design) {
     std::vector<std::size_t> list;
@@ -52,15 +48,19 @@ double rough_score(Design& design, const SearchSetting& setting, const Model& mo
 
 /// A member in another textbook form, where that is better by itself than a new member beside: what
 /// a form without all its terms leaves is no second cause.
-Model in_other_form(Design& design, const SearchSetting& setting, const Model& model, Model best) {
+Model in_other_form(Design& design, const SearchSetting& setting, OffersBeside& beside,
+                    const Model& model, Model best) {
     for (std::size_t position = 0; position < model.members.size(); ++position) {
         const ColumnGroup& held = design.group(model.members[position]);
         if (held.kind != GroupKind::textbook) continue;
-        for (std::size_t k = 0; k < design.groups().size(); ++k) {
-            if (in(model, k) || !same_cause(design.group(k), held)) continue;
+        const double without_it = model.score + beside.gained(position) - held.log_prior;
+        for (const Offer& offer : beside.other_forms(position)) {
+            const double hoped =
+                without_it + offer.gain.best + design.group(offer.group).log_prior + tuning_gain;
+            if (hoped < best.score) continue;
             Model trial = model;
-            trial.members[position] = k;
-            if (rough_score(design, setting, trial) < best.score - tuning_gain) continue;
+            trial.members[position] = offer.group;
+            trial.variances.tau[position] = offer.gain.tau;
             trial = tuned(design, setting, std::move(trial), 1);
             if (trial.score > best.score + 1e-6) best = std::move(trial);
         }
@@ -72,7 +72,8 @@ Model in_other_form(Design& design, const SearchSetting& setting, const Model& m
 bool grow(Design& design, const SearchSetting& setting, Model& model, bool with_zeros) {
     Model best = model;
     std::size_t count = 0;
-    for (const Offer& offer : offers(design, model)) {
+    OffersBeside beside(design, model);
+    for (const Offer& offer : beside.all()) {
         if (count == tried || offer.gain.best + design.group(offer.group).log_prior < 0.0) break;
         if (!with_zeros && design.group(offer.group).kind == GroupKind::offset) continue;
         ++count;
@@ -81,7 +82,7 @@ bool grow(Design& design, const SearchSetting& setting, Model& model, bool with_
         Model trial = tuned(design, setting, with(model, offer), 1);
         if (trial.score > best.score + 1e-6) best = std::move(trial);
     }
-    if (count > 0) best = in_other_form(design, setting, model, std::move(best));
+    if (count > 0) best = in_other_form(design, setting, beside, model, std::move(best));
     if (best.members == model.members) return false;
     if (best.members.size() > model.members.size())
         best = refined_last(design, setting, std::move(best));

@@ -33,12 +33,21 @@ void add_table(kinematics::ErrorCurve& curve, const std::vector<double>& at,
     for (const double q : places) curve.value.push_back(own(q) + (old.at.empty() ? 0.0 : old(q)));
 }
 
+/// A table that holds at its positions alone needs an empty curve.
+void set_places(kinematics::ErrorCurve& curve, const std::vector<double>& at,
+                const Eigen::VectorXd& value) {
+    curve.at = at;
+    curve.value.assign(value.begin(), value.end());
+    curve.interpolation = kinematics::ErrorCurve::Interpolation::none;
+}
+
 void add_free_form(setup::Setup& setup, const ColumnGroup& group,
-                   const Eigen::VectorXd& coefficients) {
+                   const Eigen::VectorXd& coefficients, bool at_places) {
+    const auto add_knots = at_places ? set_places : add_table;
     const Eigen::VectorXd value = table_values(group, coefficients);
     const Eigen::Index each = group.table.per_direction();
     if (group.table.play) {
-        add_table(setup.gap[index_of(group.table.axis.axis)], group.table.knots, value);
+        add_knots(setup.gap[index_of(group.table.axis.axis)], group.table.knots, value);
         return;
     }
     auto& motion = setup.machine.errors.axis[index_of(group.table.axis.axis)].motion;
@@ -46,7 +55,7 @@ void add_free_form(setup::Setup& setup, const ColumnGroup& group,
         kinematics::ErrorCurve& curve = motion[static_cast<std::size_t>(group.table.directions[k])];
         const Eigen::VectorXd own = value.segment(static_cast<Eigen::Index>(k) * each, each);
         if (!group.table.knots.empty()) {
-            add_table(curve, group.table.knots, own);
+            add_knots(curve, group.table.knots, own);
             continue;
         }
         for (int n = 0; n < group.table.orders; ++n) {
@@ -141,7 +150,7 @@ Eigen::VectorXd table_values(const ColumnGroup& group, const Eigen::VectorXd& co
 }
 
 setup::Setup setup_with(const Prepared& prepared, const Design& design, const Model& model,
-                        const Solution& solution) {
+                        const Solution& solution, const std::vector<bool>& at_places) {
     setup::Setup setup = prepared.base.setup;
     identification::shift_base(setup, prepared.base, prepared.catalogue,
                                solution.mean.head(solution.known));
@@ -149,7 +158,7 @@ setup::Setup setup_with(const Prepared& prepared, const Design& design, const Mo
         const ColumnGroup& group = design.group(model.members[k]);
         const Eigen::VectorXd own = solution.mean.segment(solution.first[k], solution.size[k]);
         if (group.kind == GroupKind::table)
-            add_free_form(setup, group, own);
+            add_free_form(setup, group, own, !at_places.empty() && at_places[k]);
         else if (group.effect)
             identification::add_effect(setup, *group.effect, values_in(group, own));
     }

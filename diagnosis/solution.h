@@ -32,9 +32,10 @@ std::vector<double> values_in(const ColumnGroup& group, const Eigen::VectorXd& c
 /// Values of a table at its positions, direction after direction, mm or rad.
 Eigen::VectorXd table_values(const ColumnGroup& group, const Eigen::VectorXd& coefficients);
 
-/// The base setup with all causes of the model added: the machine in the last session.
+/// The base setup with all causes of the model added: the machine in the last session. `at_places`:
+/// members whose table holds at its positions alone; empty: none.
 setup::Setup setup_with(const Prepared& prepared, const Design& design, const Model& model,
-                        const Solution& solution);
+                        const Solution& solution, const std::vector<bool>& at_places = {});
 
 /// Readings minus simulation with the set-up alone, fitted by least squares, mm. (The base model is
 /// robust: where readings are far from noise, its zeros may not lie in their middle.)

@@ -149,10 +149,15 @@ TableForm form_of(const Family& family, const kinematics::AxisGeometry& axis,
     return table;
 }
 
+/// The bow of a positioning error is a table already; that of other motions is their textbook form.
+std::size_t least_knots(const Family& family) {
+    return family.motion == EffectKind::positioning ? 3 : 4;
+}
+
 void add_family(Design& design, const Prepared& p, const Whitener& whitener, const Family& family,
                 const kinematics::AxisGeometry& axis) {
     TableForm table = form_of(family, axis, places_of(p, axis.axis));
-    if (table.orders == 0 && table.knots.size() < 4) return;
+    if (table.orders == 0 && table.knots.size() < least_knots(family)) return;
     if (family.motion == EffectKind::backlash) {
         table.play = effects::find_effect(p.catalogue, family.motion, axis.axis);
         if (!table.play || !sees_both_sides(p, table)) return;

@@ -197,7 +197,9 @@ Eigen::Index add_effects(Design& design, const Prepared& prepared, const Whitene
         prior -= std::log(static_cast<double>(prepared.replay.sessions().size() - 1));
     for (EffectColumns& r : list) {
         r.first += first;
-        add_forms(design, prepared, r, since, prior);
+        const bool gain = r.effect->kind == effects::EffectKind::sensor_gain;
+        add_forms(design, prepared, r, since,
+                  gain ? prior - rules::effect_prior + rules::gain_prior : prior);
     }
     return all;
 }

@@ -36,16 +36,22 @@ std::vector<bool> large_zeros(Design& design, const Model& model) {
     });
 }
 
-/// True when a table predicts left-out positions of its axis.
+/// True when a table predicts left-out positions of its axis, and not by chance: few positions may
+/// follow each other by accident.
 bool holds_between(Design& design, const Prepared& prepared, const Model& model,
                    std::size_t position, const std::vector<bool>& used) {
     const ColumnGroup& group = design.group(model.members[position]);
     const LeftOut left(design, model, place_folds(prepared.replay, group.table), used);
     std::vector<bool> all(model.members.size(), true), rest = all;
     rest[position] = false;
-    const double with = left.loss(all, all).mean(), without = left.loss(rest, rest).mean();
+    const BlockLoss with = left.loss(all, all), without = left.loss(rest, rest);
     const double noise = model.variances.nu * model.variances.nu;
-    return without - with > rules::between_least * std::max(1e-12, without - noise);
+    if (without.mean() - with.mean() <=
+        rules::between_least * std::max(1e-12, without.mean() - noise))
+        return false;
+    const Saving saving = saving_of(without, with);
+    return saving.blocks >= rules::many_places ||
+           estimation::student_probability(saving.t, saving.blocks - 1.0) >= rules::between_sure;
 }
 
 /// True for a drift beside what else depends on time: its course is not that of a drift, which
@@ -126,8 +132,9 @@ Judgement judged(FoldColumns& rows, const Prepared& prepared, const Model& model
 
 Verdict verdict_of(const Judgement& j, const std::vector<Claim>& claims) {
     if (!j.gap) return Verdict::no_gap;
-    const bool rivalled =
-        std::any_of(claims.begin(), claims.end(), [](const Claim& c) { return !c.rivals.empty(); });
+    const bool rivalled = std::any_of(claims.begin(), claims.end(), [](const Claim& c) {
+        return c.share >= rules::least_share && !c.rivals.empty();
+    });
     if (j.part < rules::partly) return Verdict::unexplained;
     if (j.part < rules::explained) return Verdict::partly_explained;
     return rivalled ? Verdict::ambiguous : Verdict::explained;

@@ -6,6 +6,7 @@
 #include "diagnosis/outliers.h"
 #include "diagnosis/rules.h"
 #include "diagnosis/solution.h"
+#include "estimation/free_form.h"
 #include "estimation/ranked_least_squares.h"
 
 namespace trunnion::diagnosis {
@@ -15,6 +16,7 @@ namespace {
 constexpr double most_harm = 1.2;
 constexpr double least_agreement = 1.0;  ///< t statistic of a searched form on left-out paths
 constexpr double least_part = 0.1;       ///< of its contribution that it must save there
+constexpr double on_a_knot = 1e-5;       ///< of the distance to the next one
 
 using TakesMember = std::function<bool(GroupKind, std::size_t group)>;
 
@@ -59,6 +61,33 @@ bool has_tables(const Outcome& f, const Model& model) {
                        [&](std::size_t m) { return f.design.group(m).kind == GroupKind::table; });
 }
 
+/// True for a table of a laser, autocollimator or encoder that holds at its positions alone. These
+/// are all the positions that were read, so left-out readings at the same positions confirm it; it
+/// is written for them only.
+bool holds_at_places(const Outcome& f, std::size_t group) {
+    const ColumnGroup& own = f.design.group(group);
+    if (own.kind != GroupKind::table || own.table.knots.empty() ||
+        f.judgement.interpolates[position_of(f, group)])
+        return false;
+    for (std::size_t i = 0; i < f.prepared.replay.size(); ++i) {
+        const emulator::Contact& contact = f.prepared.replay.contact(i);
+        if (contact.device != records::Device::linear && contact.device != records::Device::angle)
+            return false;
+        const double q = f.prepared.replay.sample(i).position[own.table.axis.axis];
+        const auto [knot, weight] = estimation::place_between(own.table.knots, q);
+        if (std::min(weight, 1.0 - weight) > on_a_knot) return false;
+    }
+    const auto axis = index_of(own.table.axis.axis);
+    const setup::Setup& setup = f.prepared.base.setup;
+    if (own.table.play) return setup.gap[axis].at.empty();
+    return std::all_of(
+        own.table.directions.begin(), own.table.directions.end(), [&](int direction) {
+            return setup.machine.errors.axis[axis]
+                .motion[static_cast<std::size_t>(direction)]
+                .at.empty();
+        });
+}
+
 /// True for what was chosen among many forms, so that it fits what other causes leave, too.
 bool has_searched_form(GroupKind kind) {
     return kind == GroupKind::table || kind == GroupKind::periodic;
@@ -70,7 +99,7 @@ bool helps(const Saving& saving, double contribution) {
     return saving.t >= least_agreement && saving.sum >= least_part * contribution;
 }
 
-/// For each member: whether it predicts between its positions and, where its form was searched,
+/// For each member: whether it predicts between its positions, or may be written for them alone, and, where its form was searched,
 /// helps on left-out paths. What does not help is dropped one by one, the worst first.
 std::vector<bool> predicting_elsewhere(const Outcome& f, const Folds& paths) {
     const std::vector<bool> counts = predicting(f, f.model);
@@ -82,6 +111,8 @@ std::vector<bool> predicting_elsewhere(const Outcome& f, const Folds& paths) {
         return left.loss(fitted, predicts);
     };
     std::vector<bool> kept = f.judgement.interpolates;
+    for (std::size_t k = 0; k < kept.size(); ++k)
+        kept[k] = kept[k] || holds_at_places(f, f.model.members[k]);
     for (BlockLoss with = loss(kept);; with = loss(kept)) {
         std::optional<std::size_t> worst;
         double least = 1e300;
@@ -224,9 +255,11 @@ Written written_setup(const Outcome& f) {
         w.blocks = {f.judgement.left_before, f.judgement.left_before};
         w.paths = w.blocks;
     }
-    w.setup = has_causes(f, w.model)
-                  ? setup_with(f.prepared, f.design, w.model, solved(f.design, w.model))
-                  : set_up_alone(f);
+    std::vector<bool> at_places;
+    for (const std::size_t m : w.model.members) at_places.push_back(holds_at_places(f, m));
+    w.setup = has_causes(f, w.model) ? setup_with(f.prepared, f.design, w.model,
+                                                  solved(f.design, w.model), at_places)
+                                     : set_up_alone(f);
     return w;
 }
 

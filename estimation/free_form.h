@@ -23,7 +23,7 @@ std::vector<double> knots_of(std::vector<double> places, std::size_t most);
 std::pair<Eigen::Index, double> place_between(const std::vector<double>& knots, double q);
 
 /// Candidate correlation lengths: 1/2, 1/4, 1/8, 1/16 of the range, as far as they are at least 0.6
-/// of the median knot spacing.
+/// of the median knot spacing; of few knots this too, if none is near it.
 std::vector<double> correlation_lengths(const std::vector<double>& knots);
 
 /// Shapes of one correlation length at the knots, K x columns. `owned` (K x p): functions to which

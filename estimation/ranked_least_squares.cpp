@@ -68,4 +68,11 @@ LinearFit solve_ranked(const Eigen::MatrixXd& information, const Eigen::VectorXd
     return fit;
 }
 
+double explained(const Eigen::MatrixXd& information, const Eigen::VectorXd& gradient,
+                 double threshold) {
+    const Directions d = directions_above(information, threshold * threshold);
+    if (d.seen.cols() == 0) return 0.0;
+    return (d.seen.transpose() * gradient).cwiseAbs2().cwiseQuotient(d.information).sum();
+}
+
 }  // namespace trunnion::estimation

@@ -52,4 +52,8 @@ struct LinearFit {
 LinearFit solve_ranked(const Eigen::MatrixXd& information, const Eigen::VectorXd& gradient,
                        double threshold = 0.05);
 
+/// y'A x of that solution: the squared data that it explains.
+double explained(const Eigen::MatrixXd& information, const Eigen::VectorXd& gradient,
+                 double threshold = 0.05);
+
 }  // namespace trunnion::estimation

@@ -40,7 +40,24 @@ ValueAndSlope cubic(const ErrorCurve& curve, std::size_t i, double q) {
     return {((a * t + b) * t + m0) * t + y0, ((3.0 * a * t + 2.0 * b) * t + m0) / h};
 }
 
+/// The value of a position that q meets, else 0.
+double at_place(const ErrorCurve& curve, double q) {
+    constexpr double meets = 0.01;  // of the distance to the nearest other position
+    const auto& x = curve.at;
+    const auto above = std::upper_bound(x.begin(), x.end(), q);
+    for (auto place = above == x.begin() ? above : above - 1; place != x.end() && place <= above;
+         ++place) {
+        double apart = HUGE_VAL;
+        if (place != x.begin()) apart = *place - *(place - 1);
+        if (place + 1 != x.end()) apart = std::min(apart, *(place + 1) - *place);
+        if (std::abs(q - *place) <= meets * apart)
+            return curve.value[static_cast<std::size_t>(place - x.begin())];
+    }
+    return 0.0;
+}
+
 ValueAndSlope table(const ErrorCurve& curve, double q) {
+    if (curve.interpolation == ErrorCurve::Interpolation::none) return {at_place(curve, q), 0.0};
     const auto& x = curve.at;
     if (q <= x.front()) return {curve.value.front(), 0.0};
     if (q >= x.back()) return {curve.value.back(), 0.0};
@@ -67,6 +84,22 @@ std::optional<ErrorName> parse_error_name(std::string_view text, const AxisNames
 
 std::string to_string(const ErrorName& name, const AxisNames& names) {
     return std::string{'E', name.direction} + (name.location ? "0" : "") + names[name.axis];
+}
+
+std::string_view to_string(ErrorCurve::Interpolation interpolation) {
+    switch (interpolation) {
+        case ErrorCurve::Interpolation::linear: return "linear";
+        case ErrorCurve::Interpolation::cubic: return "cubic";
+        case ErrorCurve::Interpolation::none: return "none";
+    }
+    return "";
+}
+
+std::optional<ErrorCurve::Interpolation> parse_interpolation(std::string_view text) {
+    using enum ErrorCurve::Interpolation;
+    for (const ErrorCurve::Interpolation kind : {linear, cubic, none})
+        if (text == to_string(kind)) return kind;
+    return std::nullopt;
 }
 
 std::optional<SpindleErrorName> parse_spindle_error_name(std::string_view text) {

@@ -48,7 +48,11 @@ struct ErrorCurve {
         double cosine = 0.0;
         double sine = 0.0;
     };
-    enum class Interpolation : unsigned char { linear, cubic };
+    enum class Interpolation : unsigned char {
+        linear,
+        cubic,
+        none  ///< the error is known at the positions alone, and 0 elsewhere
+    };
 
     double constant = 0.0;
     double slope = 0.0;
@@ -59,10 +63,15 @@ struct ErrorCurve {
     Interpolation interpolation = Interpolation::linear;
 
     bool is_zero() const;
-    double operator()(double q) const;  ///< beyond the ends of the table its contribution is
-                                        ///< constant
+    /// Beyond the ends of the table its contribution is constant. Without interpolation a position
+    /// is met within a hundredth of its distance to the nearest other one.
+    double operator()(double q) const;
     double derivative(double q) const;  ///< d error / d q, 0 from the table beyond its ends
 };
+
+/// "linear", "cubic", "none"
+std::string_view to_string(ErrorCurve::Interpolation interpolation);
+std::optional<ErrorCurve::Interpolation> parse_interpolation(std::string_view text);
 
 /// All errors of one axis, along and about the + axes of M: index 0..5 = X Y Z (mm), A B C (rad).
 struct AxisErrors {

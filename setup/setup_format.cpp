@@ -52,9 +52,7 @@ std::string curve_text(const kinematics::ErrorCurve& curve, bool rotary) {
     if (!curve.at.empty()) {
         add(rotary ? "at_rad" : "at_mm", toml_numbers(curve.at));
         add("value", toml_numbers(curve.value));
-        add("interpolation", curve.interpolation == kinematics::ErrorCurve::Interpolation::cubic
-                                 ? "\"cubic\""
-                                 : "\"linear\"");
+        add("interpolation", toml_quoted(std::string(to_string(curve.interpolation))));
     }
     if (curve.period_mm != 0.0) add("period_mm", shortest(curve.period_mm));
     if (!curve.harmonics.empty())

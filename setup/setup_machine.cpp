@@ -225,10 +225,9 @@ void read_table(const TomlFile& file, const TomlValue& table, bool rotary,
     for (std::size_t i = 1; i < curve.at.size(); ++i)
         if (curve.at[i] <= curve.at[i - 1]) file.fail(table, "positions of a table rise");
     if (const TomlValue* kind = table.find("interpolation")) {
-        if (file.text(*kind) != "linear" && file.text(*kind) != "cubic")
-            file.fail(*kind, "interpolation is \"linear\" or \"cubic\"");
-        curve.interpolation = kind->text == "cubic" ? kinematics::ErrorCurve::Interpolation::cubic
-                                                    : kinematics::ErrorCurve::Interpolation::linear;
+        const auto named = kinematics::parse_interpolation(file.text(*kind));
+        if (!named) file.fail(*kind, "interpolation is \"linear\", \"cubic\" or \"none\"");
+        curve.interpolation = *named;
     }
 }
 

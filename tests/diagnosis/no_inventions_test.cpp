@@ -112,7 +112,8 @@ std::optional<Injected> at_five_sigma(const Bench& bench, const effects::Effect&
     if (unresolved(effect, bench.clean)) return std::nullopt;
     std::vector<double> values = effect.zeros();
     for (std::size_t j = 0; j < values.size(); ++j)
-        if (!effect.parameters[j].is_key() && effect.parameters[j].usual)
+        if (!effect.parameters[j].is_key() && effect.parameters[j].usual &&
+            !effect.parameters[j].mean_line)  // the slope of that line is squareness
             values[j] = effect.parameters[j].typical;
     double size = 1.0;
     for (int pass = 0; pass < 3; ++pass) {  // effects are nearly linear in their size

@@ -13,12 +13,16 @@ using diagnosis::Verdict;
 TEST_CASE("the part of the gap and the rivals decide the verdict", "[diagnosis]") {
     diagnosis::Claim sure, rivalled;
     rivalled.rivals = {"C.backlash"};
+    rivalled.share = 0.05;
+    diagnosis::Claim background = rivalled;
+    background.share = 0.04;
     diagnosis::Judgement j;
     j.part = 0.9;
     CHECK(verdict_of(j, {rivalled}) == Verdict::no_gap);
     j.gap = true;
     CHECK(verdict_of(j, {sure}) == Verdict::explained);
     CHECK(verdict_of(j, {sure, rivalled}) == Verdict::ambiguous);
+    CHECK(verdict_of(j, {sure, background}) == Verdict::explained);
     j.part = 0.79;
     CHECK(verdict_of(j, {sure}) == Verdict::partly_explained);
     CHECK(verdict_of(j, {rivalled}) == Verdict::partly_explained);
