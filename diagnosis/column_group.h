@@ -48,6 +48,8 @@ struct ColumnGroup {
     std::vector<double> keys;                 ///< of the effect; linear parameters 0
     std::vector<std::size_t> parameters;      ///< of the effect, one for each feature
     TableForm table;
+    bool is_line = false;  ///< the functions that a table at knots leaves to the textbook form; it
+                           ///< stands in no model
     std::vector<Eigen::Index> features;  ///< columns of the design that the group combines
     Eigen::MatrixXd shape;               ///< features x columns; empty: one column for each feature
     /// Values of the features for coefficients of the columns.

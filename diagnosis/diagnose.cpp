@@ -281,10 +281,15 @@ bool straighten(Prepared& p, Searched& s) {
     const std::vector<double> read = p.replay.predict(
         setup.machine, identification::offsets_to(p.replay, setup), effects::active_models(setup));
     const Eigen::VectorXd fit = p.base.residual_mm - left_mm(p, s.design, s.model, solution);
-    const Eigen::VectorXd straight =
+    Eigen::VectorXd straight =
         p.base.measured_mm -
         Eigen::Map<const Eigen::VectorXd>(read.data(), static_cast<Eigen::Index>(read.size())) +
         fit;
+    // The emulator reads from the first row of a test, the columns of effects do not: only a zero.
+    for (const emulator::ZeroGroup& group : p.replay.zeros()) {
+        const Eigen::VectorXd own = (straight - p.base.residual_mm)(group.rows);
+        for (const std::size_t k : group.rows) straight(static_cast<Eigen::Index>(k)) -= own.mean();
+    }
     const auto whitened = [&](const Eigen::VectorXd& v) {
         return v.cwiseQuotient(p.base.sigma_mm).norm();
     };

@@ -175,11 +175,12 @@ class DriverList {
             carriers.push_back(axis_response(axis));
             const std::string& name = table_.names[axis];
             add(name, "machine frame", "follows the position of " + name, functions, carriers);
-            // A shift that follows a linear axis is its positioning and straightness, as a table.
-            drivers_.back().only_where = !turns(axis);
+            // What follows one axis is an error motion of it, as a table.
+            drivers_.back().only_where = true;
             if (!turns(axis)) continue;
             add(name, "angles", "follows the position of " + name + " as a tilt", functions,
                 {tilt_response(axis, 0), tilt_response(axis, 1), tilt_response(axis, 2)});
+            drivers_.back().only_where = true;
         }
     }
 

@@ -11,6 +11,8 @@ namespace {
 
 constexpr std::size_t least_places = 8;
 constexpr double least_turns = 2.0, most_hole = 0.4, least_spacings = 2.0, least_outside = 0.2;
+/// Of a spike: one that does not decay on the way between two readings is a backlash.
+constexpr double least_other = 0.01;
 /// On a grid of fewer positions a ripple whose period is not unique is never claimed: it has half
 /// as many frequencies as positions, and one of them resembles an error of any shape.
 constexpr std::size_t many_places = 3 * least_places;
@@ -177,11 +179,13 @@ std::optional<std::size_t> add_ripple_or_other(Design& design, const Prepared& p
             return std::nullopt;
     }
     const auto added = add_keyed_group(design, prepared, whitener, effect, std::move(keys));
-    if (added && ripple && !separable(design, *added, of_axis(design, effect))) {
-        design.hide(*added);
-        return std::nullopt;
-    }
-    return added;
+    if (!added || !effect.axis) return added;
+    const std::vector<Eigen::Index> others = of_axis(design, effect);
+    if (ripple ? separable(design, *added, others)
+               : design.outside(*added, others) >= least_other)
+        return added;
+    design.hide(*added);
+    return std::nullopt;
 }
 
 }  // namespace trunnion::diagnosis

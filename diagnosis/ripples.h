@@ -25,7 +25,8 @@ void add_unresolved_ripple(Design& design, const Prepared& prepared, const White
 
 /// Adds the effect with given keys if the positions of its axis resolve it and no textbook effect
 /// of that axis is equivalent on these readings: at least a fifth of its squared columns must be
-/// outside theirs, or so much that they would not count as its rivals. Of periods with the same
+/// outside theirs, or so much that they would not count as its rivals; of a spike, which may be the
+/// backlash on straight lines, a hundredth. Of periods with the same
 /// values on a grid of many positions the longest is added; on one of fewer positions none.
 std::optional<std::size_t> add_ripple_or_other(Design& design, const Prepared& prepared,
                                                const Whitener& whitener,

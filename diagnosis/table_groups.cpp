@@ -167,16 +167,25 @@ void add_family(Design& design, const Prepared& p, const Whitener& whitener, con
     Eigen::MatrixXd white = table_features(p.replay, p.base.gradient, table);
     whitener.apply(white);
     const Eigen::Index first = design.add_features(white);
-    for (const Shape& shape : shapes) {
+    const auto group_of = [&](const Eigen::MatrixXd& shape) {
         ColumnGroup group;
         group.kind = GroupKind::table;
         group.name = effects::effect_name(axis.name, family.motion);
         group.table = table;
-        group.shape = for_each_direction(shape.columns, table.directions.size());
+        group.shape = for_each_direction(shape, table.directions.size());
         for (Eigen::Index k = 0; k < white.cols(); ++k) group.features.push_back(first + k);
+        return group;
+    };
+    for (const Shape& shape : shapes) {
+        ColumnGroup group = group_of(shape.columns);
         group.log_prior = rules::table_prior + family.log_prior + shape.log_prior;
         design.add(std::move(group));
     }
+    if (table.knots.empty()) return;
+    ColumnGroup line = group_of(owned_at(family, table.knots));
+    line.is_line = true;
+    line.component = "line";  // so that it is no other form of the table
+    design.hide(design.add(std::move(line)));
 }
 
 }  // namespace

@@ -36,13 +36,28 @@ std::vector<bool> large_zeros(Design& design, const Model& model) {
     });
 }
 
+/// The model with the line free that a table leaves to the textbook form: a table without slope over
+/// all positions would know something of those that are left out.
+Model with_free_line(const Design& design, Model model, const ColumnGroup& table) {
+    constexpr double any_size = 100.0;
+    for (std::size_t k = 0; k < design.groups().size(); ++k) {
+        const ColumnGroup& line = design.group(k);
+        if (!line.is_line || line.name != table.name || line.table.axis.axis != table.table.axis.axis)
+            continue;
+        model.members.push_back(k);
+        model.variances.tau.push_back(any_size);
+    }
+    return model;
+}
+
 /// True when a table predicts left-out positions of its axis, and not by chance: few positions may
 /// follow each other by accident.
 bool holds_between(Design& design, const Prepared& prepared, const Model& model,
                    std::size_t position, const std::vector<bool>& used) {
     const ColumnGroup& group = design.group(model.members[position]);
-    const LeftOut left(design, model, place_folds(prepared.replay, group.table), used);
-    std::vector<bool> all(model.members.size(), true), rest = all;
+    const Model free = with_free_line(design, model, group);
+    const LeftOut left(design, free, place_folds(prepared.replay, group.table), used);
+    std::vector<bool> all(free.members.size(), true), rest = all;
     rest[position] = false;
     const BlockLoss with = left.loss(all, all), without = left.loss(rest, rest);
     const double noise = model.variances.nu * model.variances.nu;

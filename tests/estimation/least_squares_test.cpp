@@ -46,6 +46,9 @@ TEST_CASE("a direction that no reading sees is named and stays at zero", "[estim
     CHECK(fit.value(2) == Approx(-2.0));
     CHECK(std::isnan(fit.sigma(0)));
     CHECK(std::isfinite(fit.sigma(2)));
+    CHECK(estimation::explained(a.transpose() * a, a.transpose() * y) == Approx(y.squaredNorm()));
+    CHECK(estimation::explained(Eigen::MatrixXd(0, 0), Eigen::VectorXd(0)) == 0.0);
+    CHECK(estimation::explained(Eigen::MatrixXd::Zero(2, 2), Eigen::Vector2d(1.0, 2.0)) == 0.0);
     CHECK(estimation::solve_ranked(Eigen::MatrixXd(0, 0), Eigen::VectorXd(0)).value.size() == 0);
 }
 
@@ -130,6 +133,10 @@ TEST_CASE("free forms leave out what the textbook owns and follow any smooth cur
     // No length shorter than most distances of the knots.
     CHECK(estimation::correlation_lengths({0.0, 10.0, 20.0, 30.0}) ==
           std::vector<double>{15.0, 7.5});
+    // Of few knots the shortest one is near 0.6 of their distance, so that each has its own value.
+    CHECK(estimation::correlation_lengths({0.0, 10.0, 20.0, 30.0, 40.0, 50.0}) ==
+          std::vector<double>{25.0, 12.5, 6.25});
+    CHECK(estimation::correlation_lengths({0.0, 10.0, 20.0}) == std::vector<double>{10.0, 6.0});
     const Eigen::MatrixXd shape = estimation::smooth_shapes(knots, lengths[2], line, 24);
     CHECK((line.transpose() * shape).cwiseAbs().maxCoeff() < 1e-9);
     Eigen::VectorXd curve(31);

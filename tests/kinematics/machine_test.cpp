@@ -258,3 +258,30 @@ TEST_CASE("error curves: tables hit their points, stay flat beyond, and derivati
     curve.harmonics.clear();
     CHECK(curve(2.2) == Approx(4.84));
 }
+
+TEST_CASE("error curves: without interpolation a table holds at its positions alone") {
+    kinematics::ErrorCurve curve;
+    curve.at = {0, 10, 30};
+    curve.value = {0.001, 0.002, 0.003};
+    curve.interpolation = kinematics::ErrorCurve::Interpolation::none;
+    const auto meets = [&](double q, double value) {
+        INFO(q);
+        CHECK(curve(q) == value);
+        CHECK(curve.derivative(q) == 0.0);
+    };
+    meets(0.0, 0.001);
+    meets(10.0, 0.002);
+    meets(30.0, 0.003);
+    // A hundredth of the distance to the nearest other position: 0.1, 0.1, 0.2.
+    for (const double side : {-1.0, 1.0}) {
+        meets(0.0 + side * 0.0999, 0.001);
+        meets(0.0 + side * 0.1001, 0.0);
+        meets(10.0 + side * 0.0999, 0.002);
+        meets(10.0 + side * 0.1001, 0.0);
+        meets(30.0 + side * 0.1999, 0.003);
+        meets(30.0 + side * 0.2001, 0.0);
+    }
+    for (const double q : {-1e6, 5.0, 20.0, 1e6}) meets(q, 0.0);
+    CHECK(kinematics::parse_interpolation("none") == kinematics::ErrorCurve::Interpolation::none);
+    CHECK_FALSE(kinematics::parse_interpolation("None"));
+}

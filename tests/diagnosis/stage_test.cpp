@@ -1,0 +1,194 @@
+// Laser tests of stages as they are: the error changes from target to target, the scatter is far
+// from what is usual, and each test has its own zero.
+#include <fmt/format.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+
+#include "diagnosis/diagnosis.h"
+#include "effects/settings.h"
+#include "emulator/replay.h"
+#include "setup/setup.h"
+
+namespace trunnion {
+namespace {
+
+setup::Setup stage(const std::string& more = "") {
+    std::vector<std::string> notes;
+    return setup::parse_setup(
+        "[machine]\nname = \"stage\"\nchain = \"w b X Y Z t\"\n"
+        "[[artefact]]\nname = \"R1\"\nkind = \"target\"\ntool_mm = [0, 0, 0]\n"
+        "[model]\nmodelled = []\n" +
+            more,
+        "stage.toml", notes);
+}
+
+struct Truth {
+    std::vector<double> at_mm, error_mm;  ///< mean of both directions at the targets
+    double gap_mm = 0.0, noise_mm = 0.0;
+};
+
+/// Targets 5 mm apart with independent errors of 30 um, without their mean line, which is a scale.
+Truth rough(std::size_t targets, unsigned seed) {
+    std::mt19937_64 engine(seed);
+    std::normal_distribution<double> error_mm(0.0, 0.03);
+    Truth truth{{}, {}, 0.0128, 0.002};
+    for (std::size_t k = 0; k < targets; ++k) {
+        truth.at_mm.push_back(5.0 * static_cast<double>(k) - 20.0);
+        truth.error_mm.push_back(error_mm(engine));
+    }
+    const auto n = static_cast<double>(targets);
+    double sum = 0.0, along = 0.0, square = 0.0;
+    for (const double e_mm : truth.error_mm) sum += e_mm;
+    const double middle_mm = 0.5 * (truth.at_mm.front() + truth.at_mm.back());
+    for (std::size_t k = 0; k < targets; ++k) {
+        along += (truth.at_mm[k] - middle_mm) * truth.error_mm[k];
+        square += std::pow(truth.at_mm[k] - middle_mm, 2);
+    }
+    for (std::size_t k = 0; k < targets; ++k)
+        truth.error_mm[k] -= sum / n + along / square * (truth.at_mm[k] - middle_mm);
+    return truth;
+}
+
+/// Runs up and down over the targets, ISO 230-2.
+records::ReadingTable laser(const Truth& truth, int runs, unsigned seed, double zero_mm = 0.0) {
+    std::mt19937_64 engine(seed);
+    std::normal_distribution<double> noise(0.0, truth.noise_mm);
+    records::ReadingTable table;
+    table.path = "laser.csv";
+    table.axes = {Axis::X, Axis::Y, Axis::Z};
+    table.side_before[index_of(Axis::X)] = -1;
+    const auto count = static_cast<int>(truth.at_mm.size());
+    for (int k = 0; k < 2 * runs * count; ++k) {
+        const int in_run = k % (2 * count), side = in_run < count ? 1 : -1;
+        const auto target =
+            static_cast<std::size_t>(side > 0 ? in_run : 2 * count - 1 - in_run);
+        records::Reading row;
+        row.index = static_cast<int>(table.rows.size());
+        row.time_s = 60.0 * row.index;
+        if (in_run == 0 || in_run == count) {  // past the end, so that the side is known
+            row.commanded[Axis::X] = truth.at_mm[target] - side;
+            table.rows.push_back(row);
+            row.index += 1;
+            row.time_s += 30.0;
+        }
+        row.commanded[Axis::X] = truth.at_mm[target];
+        row.test = "X";
+        row.device = records::Device::linear;
+        row.feature = "R1";
+        row.direction_M = Vector3(1, 0, 0);
+        row.value_mm = zero_mm + truth.error_mm[target] + 0.5 * side * truth.gap_mm + noise(engine);
+        table.rows.push_back(row);
+    }
+    return table;
+}
+
+const diagnosis::Cause* cause(const diagnosis::Diagnosis& d, const std::string& name, bool table) {
+    for (const diagnosis::Cause& c : d.causes)
+        if (c.effect == name && c.points.empty() != table) return &c;
+    return nullptr;
+}
+
+std::string said(const diagnosis::Diagnosis& d) {
+    std::string text;
+    for (const diagnosis::Cause& c : d.causes)
+        text += fmt::format("{}{} {:.2f}; ", c.effect, c.points.empty() ? "" : " table",
+                            c.probability.value());
+    return text;
+}
+
+/// Standard deviation of readings beside the prediction of a setup, mm; its zero is free.
+double left_mm(const setup::Setup& setup, const records::ReadingTable& table) {
+    const emulator::Replay replay(setup, table);
+    const std::vector<double> predicted = replay.predict(effects::active_models(setup));
+    double sum = 0.0, square = 0.0;
+    for (std::size_t i = 0; i < predicted.size(); ++i) {
+        const double left = *table.rows[replay.table_row(i)].value_mm - predicted[i];
+        sum += left;
+        square += left * left;
+    }
+    const auto n = static_cast<double>(predicted.size());
+    return std::sqrt(square / n - sum * sum / n / n);
+}
+
+}  // namespace
+
+TEST_CASE("an error that changes from target to target is a table, and the backlash stays",
+          "[diagnosis][stage]") {
+    for (const std::size_t targets : {5, 9, 21}) {
+        const Truth truth = rough(targets, 7 + static_cast<unsigned>(targets));
+        const diagnosis::Diagnosis d = diagnosis::diagnose(stage(), laser(truth, 5, 3));
+        INFO(targets);
+        INFO(said(d));
+        REQUIRE(cause(d, "X.positioning", true));
+        CHECK(cause(d, "X.positioning", true)->probability > 0.8);
+        const diagnosis::Cause* backlash = cause(d, "X.backlash", false);
+        REQUIRE(backlash);
+        CHECK(backlash->probability > 0.8);
+        CHECK(backlash->parameters.front().value == Approx(0.0128).margin(0.0013));
+        CHECK(d.explained > 0.9);
+        CHECK_FALSE(d.between_places);
+
+        // At its places the written setup is right, also for a later test with another zero ...
+        CHECK(left_mm(d.setup, laser(truth, 3, 99, 0.5)) < 1.15 * truth.noise_mm);
+        // ... between them it contains the backlash alone.
+        Truth between = truth;
+        for (double& at_mm : between.at_mm) at_mm += 2.5;
+        for (double& error_mm : between.error_mm) error_mm = 0.0;
+        CHECK(left_mm(d.setup, laser(between, 3, 98)) < 1.15 * truth.noise_mm);
+    }
+}
+
+TEST_CASE("the noise of a laser test is that of its own repeats", "[diagnosis][stage]") {
+    Truth truth = rough(5, 1);
+    for (const double noise_mm : {0.0001, 0.002, 0.02}) {  // usual: 0.0005
+        truth.noise_mm = noise_mm;
+        const diagnosis::Diagnosis d = diagnosis::diagnose(stage(), laser(truth, 5, 5));
+        INFO(noise_mm);
+        CHECK(d.noise.source == diagnosis::NoiseSource::repeats);
+        CHECK(d.noise_um.value() == Approx(1e3 * noise_mm).epsilon(0.3));
+    }
+    // One run there and back repeats nothing.
+    const diagnosis::Diagnosis once = diagnosis::diagnose(stage(), laser(rough(21, 1), 1, 5));
+    CHECK(once.noise.source == diagnosis::NoiseSource::assumed);
+}
+
+TEST_CASE("readings held out have a zero of their own", "[diagnosis][stage]") {
+    const Truth truth = rough(9, 4);
+    const records::ReadingTable fitted = laser(truth, 4, 11);
+    std::vector<double> explained;
+    for (const double zero_mm : {0.0, 0.02, -1.0}) {
+        const records::ReadingTable later = laser(truth, 2, 12, zero_mm);
+        diagnosis::DiagnosisOptions options;
+        options.holdout = &later;
+        explained.push_back(diagnosis::diagnose(stage(), fitted, options).explained);
+    }
+    CHECK(explained[0] > 0.9);
+    CHECK(explained[1] == Approx(explained[0]).epsilon(1e-9));
+    CHECK(explained[2] == Approx(explained[0]).epsilon(1e-9));
+}
+
+TEST_CASE("a bow seen at three targets is a table beside the scale", "[diagnosis][stage]") {
+    Truth truth{{15.0, 35.0, 55.0}, {0.02, -0.016, -0.025}, 0.0038, 0.0008};
+    const diagnosis::Diagnosis d = diagnosis::diagnose(stage(), laser(truth, 10, 8));
+    INFO(said(d));
+    REQUIRE(cause(d, "X.scale", false));
+    CHECK(cause(d, "X.scale", false)->probability > 0.5);
+    CHECK(cause(d, "X.positioning", true));
+    REQUIRE(cause(d, "X.backlash", false));
+    CHECK(cause(d, "X.backlash", false)->parameters.front().value == Approx(0.0038).margin(4e-4));
+    CHECK(left_mm(d.setup, laser(truth, 10, 9)) < 1.2 * truth.noise_mm);
+}
+
+TEST_CASE("a table without interpolation is written and read again", "[diagnosis][stage]") {
+    const Truth truth = rough(5, 2);
+    const diagnosis::Diagnosis d = diagnosis::diagnose(stage(), laser(truth, 5, 3));
+    std::vector<std::string> notes;
+    const setup::Setup again = setup::parse_setup(setup::format_setup(d.setup), "again.toml", notes);
+    const records::ReadingTable later = laser(truth, 2, 20);
+    CHECK(left_mm(again, later) == Approx(left_mm(d.setup, later)).epsilon(1e-9));
+    CHECK(setup::format_setup(d.setup).find("interpolation = \"none\"") != std::string::npos);
+}
+
+}  // namespace trunnion
