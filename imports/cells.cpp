@@ -30,15 +30,38 @@ bool is_blank(char c) {
 }
 
 /// Largest number of consecutive lines that `separator` splits into the same number of cells, two
-/// or more.
+/// or more, at least one of them a number. Lines of remarks have commas too.
 std::size_t longest_run(const std::vector<records::TableLine>& lines, char separator) {
+    const Dialect point{separator, false}, comma{separator, separator != ','};
     std::size_t best = 0, run = 0;
+    bool numbers = false;
     std::ptrdiff_t last = 0;
     for (const records::TableLine& line : lines) {
         const auto count = std::count(line.text.begin(), line.text.end(), separator);
-        run = count > 0 && count == last ? run + 1 : 1;
+        const bool goes_on = count > 0 && count == last;
+        run = goes_on ? run + 1 : 1;
         last = count;
-        if (count > 0) best = std::max(best, run);
+        if (count == 0) continue;
+        const Cells cells = cells_of(line, separator);
+        numbers = (goes_on && numbers) || has_number(cells, point) || has_number(cells, comma);
+        if (numbers) best = std::max(best, run);
+    }
+    return best;
+}
+
+/// Largest number of consecutive lines of as many numbers, two or more, between blanks only.
+std::size_t longest_run_between_blanks(const std::vector<records::TableLine>& lines) {
+    const Dialect point{' ', false};
+    std::size_t best = 0, run = 0, last = 0;
+    for (const records::TableLine& line : lines) {
+        const Cells cells = cells_of(line, ' ');
+        const bool numbers =
+            cells.size() > 1 && std::all_of(cells.begin(), cells.end(), [&](const auto& cell) {
+                return point.find_number(cell.text).has_value();
+            });
+        run = !numbers ? 0 : cells.size() == last ? run + 1 : 1;
+        last = cells.size();
+        best = std::max(best, run);
     }
     return best;
 }
@@ -105,8 +128,8 @@ void drop_empty_end(std::vector<records::TableCell>& cells) {
 }
 
 bool is_missing(std::string_view text) {
-    static constexpr std::array<std::string_view, 9> words{"-",  "--",   "---",  "nan", "n/a",
-                                                           "na", "n.a.", "null", "#n/a"};
+    static constexpr std::array<std::string_view, 11> words{
+        "-", "--", "---", "nan", "n/a", "na", "n.a.", "null", "#n/a", "out of range", "overrange"};
     if (text.find_first_not_of('*') == std::string_view::npos) return true;  // also when empty
     std::string lower(text);
     for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -127,12 +150,13 @@ bool is_data(const Cells& cells, const Dialect& dialect) {
 
 Dialect dialect_of(const std::vector<records::TableLine>& lines) {
     Dialect dialect{' ', false};
+    const std::size_t blanks = longest_run_between_blanks(lines);
     std::size_t best = 1;
     for (const char candidate : {'\t', ';', ',', '|'}) {
         // With ; or tabs, and between blanks, commas are decimal marks.
         if (candidate == ',' && (best > 1 || commas_between_blanks(lines))) continue;
         const std::size_t run = longest_run(lines, candidate);
-        if (run <= best) continue;
+        if (run <= best || run < blanks) continue;
         best = run;
         dialect.separator = candidate;
     }
