@@ -29,10 +29,23 @@ bool is_blank(char c) {
     return c == ' ' || c == '\t';
 }
 
+/// A number between two separators. Quotes are not looked at: a remark may have one.
+bool number_between(std::string_view text, char separator) {
+    const Dialect point{separator, false}, comma{separator, separator != ','};
+    for (std::size_t k = 0; k <= text.size();) {
+        const std::size_t end = std::min(text.find(separator, k), text.size());
+        std::string_view cell = records::without_blanks(text.substr(k, end - k));
+        if (cell.size() > 1 && cell.front() == '"' && cell.back() == '"')
+            cell = cell.substr(1, cell.size() - 2);
+        if (point.find_number(cell) || comma.find_number(cell)) return true;
+        k = end + 1;
+    }
+    return false;
+}
+
 /// Largest number of consecutive lines that `separator` splits into the same number of cells, two
 /// or more, at least one of them a number. Lines of remarks have commas too.
 std::size_t longest_run(const std::vector<records::TableLine>& lines, char separator) {
-    const Dialect point{separator, false}, comma{separator, separator != ','};
     std::size_t best = 0, run = 0;
     bool numbers = false;
     std::ptrdiff_t last = 0;
@@ -42,8 +55,7 @@ std::size_t longest_run(const std::vector<records::TableLine>& lines, char separ
         run = goes_on ? run + 1 : 1;
         last = count;
         if (count == 0) continue;
-        const Cells cells = cells_of(line, separator);
-        numbers = (goes_on && numbers) || has_number(cells, point) || has_number(cells, comma);
+        numbers = (goes_on && numbers) || number_between(line.text, separator);
         if (numbers) best = std::max(best, run);
     }
     return best;
@@ -66,14 +78,16 @@ std::size_t longest_run_between_blanks(const std::vector<records::TableLine>& li
     return best;
 }
 
-/// "0,5  1,25": numbers with decimal comma, separated by blanks.
-bool commas_between_blanks(const std::vector<records::TableLine>& lines) {
-    const Dialect comma{' ', true};
+/// A line of numbers only, two or more between blanks, at least one with this decimal mark:
+/// "0,5  1,25". Remarks hold other words.
+bool marks_between_blanks(const std::vector<records::TableLine>& lines, char mark) {
+    const Dialect dialect{' ', mark == ','};
     for (const records::TableLine& line : lines) {
         const Cells cells = cells_of(line, ' ');
-        const auto number = [&](const auto& cell) { return comma.find_number(cell.text); };
-        if (cells.size() > 1 && has_decimal_comma(line.text) &&
-            std::all_of(cells.begin(), cells.end(), number))
+        const auto number = [&](const auto& cell) { return dialect.find_number(cell.text); };
+        const bool marked = mark == ',' ? has_decimal_comma(line.text)
+                                        : line.text.find(mark) != std::string_view::npos;
+        if (cells.size() > 1 && marked && std::all_of(cells.begin(), cells.end(), number))
             return true;
     }
     return false;
@@ -154,7 +168,7 @@ Dialect dialect_of(const std::vector<records::TableLine>& lines) {
     std::size_t best = 1;
     for (const char candidate : {'\t', ';', ',', '|'}) {
         // With ; or tabs, and between blanks, commas are decimal marks.
-        if (candidate == ',' && (best > 1 || commas_between_blanks(lines))) continue;
+        if (candidate == ',' && (best > 1 || marks_between_blanks(lines, ','))) continue;
         const std::size_t run = longest_run(lines, candidate);
         if (run <= best || run < blanks) continue;
         best = run;
@@ -164,6 +178,7 @@ Dialect dialect_of(const std::vector<records::TableLine>& lines) {
     dialect.decimal_comma = std::any_of(lines.begin(), lines.end(), [](const auto& line) {
         return line.text[0] != '#' && has_decimal_comma(line.text);
     });
+    if (dialect.separator == ' ' && marks_between_blanks(lines, '.')) dialect.decimal_comma = false;
     const bool one = cells_of(lines.back(), ' ').size() == 1;
     if (dialect.separator == ' ' && dialect.decimal_comma && one)
         throw InputError("a comma may be decimal mark or separator here: use ; between columns",

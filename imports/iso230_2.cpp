@@ -12,6 +12,7 @@
 #include "imports/iso_test.h"
 #include "imports/row_writer.h"
 #include "imports/rtl.h"
+#include "imports/told_direction.h"
 
 namespace trunnion::imports {
 namespace {
@@ -176,6 +177,9 @@ Imported import_iso230_2(const ImportRequest& request) {
     for (ImportFile& file : files)
         if (is_rtl(file.text)) file.text = table_of_rtl(file, request.facts, notes);
     const ImportRequest plain{request.setup, files, request.facts, request.map};
+    const std::string sense = request.facts.text("sense");
+    if (!sense.empty() && direction_in(sense).value_or(0) == 0)
+        throw InputError("--with: sense is forward or backward, + or - here, not '" + sense + "'");
     IsoImport import(plain);
     import.result.notes = std::move(notes);
     const std::vector<TextTable> tables = tables_of(plain, import.result.notes);

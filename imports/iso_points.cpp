@@ -29,8 +29,8 @@ std::optional<std::size_t> column_of_role(const TextTable& table, Role wanted) {
 
 std::optional<std::size_t> target_column(const TextTable& table) {
     const auto named = find_first_column(
-        table, {{"target", "targetposition", "targetpos", "tgt", "tgtpos", "tgtposi", "tgtposij", "ziel",
-                 "zielposition", "zielpos"},
+        table, {{"target", "targetposition", "targetpos", "tgt", "tgtpos", "tgtposi", "tgtposij",
+                 "ziel", "zielposition", "zielpos"},
                 {"nominal", "nominalposition", "soll", "sollposition", "sollwert", "nominalangle"},
                 {"commanded", "command", "cmd", "commandedposition", "setpoint", "reference",
                  "referenceangle", "ref"},
@@ -78,7 +78,7 @@ int way_of_plain_runs(const IsoSource& source, std::vector<std::string>& notes) 
     if (!source.way_text.empty())
         source.table.header_line().fail(
             "the runs have no direction (\"1+\", \"1-\"), and '" + source.way_text +
-                "' above the table is not one of them: forward, backward, up, down, + or -",
+                "' above the table is not one of them: --with sense=forward or backward tells it",
             1);
     notes.push_back(source.table.path() + ": runs without a direction taken as towards +");
     return 1;
@@ -107,8 +107,7 @@ std::vector<RunColumn> run_columns(const IsoSource& source, std::vector<std::str
         const int way = way_of_plain_runs(source, notes);
         for (RunColumn& run : runs) run.name.direction = way;
     }
-    for (const RunColumn& run : runs)
-        way_of(source, columns[run.column].name, run.name.direction);
+    for (const RunColumn& run : runs) way_of(source, columns[run.column].name, run.name.direction);
     std::stable_sort(runs.begin(), runs.end(),
                      [](const auto& a, const auto& b) { return before(a.name, b.name); });
     return runs;
@@ -277,8 +276,9 @@ void finish(const IsoSource& source, IsoSeries& series, Imported& result) {
     follow_order(table, points, source.way);
     for (const IsoPoint& p : points)
         if (source.way != 0 && p.direction != source.way)
-            table.fail(p.row, 0, "this contradicts the direction '" + source.way_text +
-                                     "' told for this table");
+            table.fail(
+                p.row, 0,
+                "this contradicts the direction '" + source.way_text + "' told for this table");
     if (!series.timed && turn_passes(points))
         result.notes.push_back(table.path() +
                                ": passes listed against their direction are read in reverse");
@@ -288,10 +288,22 @@ void finish(const IsoSource& source, IsoSeries& series, Imported& result) {
         result.notes.push_back(table.path() + ": no times: rows one minute apart");
 }
 
-/// The direction that --with sense=, or a line above the table, tells.
-void take_way(const Facts& facts, IsoSource& source) {
-    source.way_text = facts.text("sense");
+/// The direction that --with sense=, or a line above the table, tells. A heading ("Data backward
+/// direction") completes a line such as "Direction: bidirectional" of the whole file.
+void take_way(IsoSource& source) {
+    source.way_text = source.facts.text("sense");
     source.way = direction_in(source.way_text).value_or(0);
+    const auto heading = source.table.head().find("heading direction");
+    if (heading == source.table.head().end()) return;
+    const std::string& text = heading->second.value;
+    const int way = direction_in(text).value_or(0);
+    if (source.way == -way)
+        source.table.head_line(heading->second)
+            .fail("'" + text + "' contradicts the direction '" + source.way_text +
+                      "' told for this table",
+                  1);
+    source.way = way;
+    source.way_text = text;
 }
 
 }  // namespace
@@ -306,7 +318,7 @@ std::vector<IsoSeries> read_iso_points(const TextTable& table, const Facts& fact
                                        const IsoQuantities& quantities, Imported& result) {
     std::vector<IsoSeries> list;
     IsoSource source{table, facts, quantities, 0, 1.0, 0, ""};
-    take_way(facts, source);
+    take_way(source);
     if (targets_across(table)) {
         list.push_back({"", across_points(source), false, false});
     } else {

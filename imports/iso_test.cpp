@@ -32,10 +32,9 @@ bool same_targets(const IsoTest& a, const IsoTest& b) {
 bool complement(const IsoTest& a, const IsoTest& b) {
     const int way = only_way(a.series.points);
     const auto same = [&](const char* fact) { return a.facts.text(fact) == b.facts.text(fact); };
-    return way != 0 && way == -only_way(b.series.points) && a.table->path() == b.table->path() &&
-           a.axis.axis == b.axis.axis && a.what.test == b.what.test &&
-           a.series.timed == b.series.timed && same("session") && same("test") && same("at") &&
-           same("feature") && same_targets(a, b);
+    return way != 0 && way == -only_way(b.series.points) && a.axis.axis == b.axis.axis &&
+           a.what.test == b.what.test && a.series.timed == b.series.timed && same("session") &&
+           same("test") && same("at") && same("feature") && same_targets(a, b);
 }
 
 /// In the order of their times or, without any: run 1 up, run 1 down, run 2 up ...
@@ -58,15 +57,22 @@ void join(IsoTest& one, const IsoTest& other) {
 void add_test(std::vector<IsoTest>& tests, IsoTest test, std::vector<std::string>& notes) {
     const auto other = std::find_if(tests.rbegin(), tests.rend(),
                                     [&](const IsoTest& t) { return complement(t, test); });
-    if (other == tests.rend()) {
+    const bool one_file = other != tests.rend() && other->table->path() == test.table->path();
+    if (other != tests.rend() && !one_file)
+        notes.push_back(
+            fmt::format("{} and {}: the two directions of {} in two files: each has a "
+                        "zero of its own, and the reversal is not read; one file with "
+                        "both tables has one zero",
+                        other->table->path(), test.table->path(), test.axis.name));
+    if (!one_file) {
         tests.push_back(std::move(test));
         return;
     }
-    notes.push_back(fmt::format("{}: {}: the tables of lines {} and {} are the two directions of "
-                                "one test, with one zero",
-                                test.table->path(), test.axis.name,
-                                other->table->header_line().number,
-                                test.table->header_line().number));
+    notes.push_back(
+        fmt::format("{}: {}: the tables of lines {} and {} are the two directions of "
+                    "one test, with one zero",
+                    test.table->path(), test.axis.name, other->table->header_line().number,
+                    test.table->header_line().number));
     join(*other, test);
 }
 

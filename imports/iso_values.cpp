@@ -83,11 +83,12 @@ std::string usual_unit(Quantity quantity) {
 double value_factor(const IsoSource& source, std::size_t column) {
     const Beside beside = numbers_beside(source, column);
     const bool named = !source.table.columns()[column].unit.empty();
-    if (!named && !source.facts.has("unit") && source.quantities.target == source.quantities.value && beside.follow())
+    if (!named && !source.facts.has("unit") &&
+        source.quantities.target == source.quantities.value && beside.follow())
         return source.factor;
-    const double factor = number_column(source.table, column, source.quantities.value,
-                                        source.facts.text("unit"))
-                              .factor;
+    const double factor =
+        number_column(source.table, column, source.quantities.value, source.facts.text("unit"))
+            .factor;
     refuse_same_numbers(source, beside, named || same(factor, source.factor), column);
     return factor;
 }

@@ -83,8 +83,8 @@ bool says_position(const std::string& name) {
 void take_plain(const TextTable& table, std::size_t k, const Facts& facts, AxisColumns& columns,
                 LogColumns& log) {
     const std::string& name = table.columns()[k].name;
-    const bool actual = columns.commanded && !columns.actual && !columns.error && !log.block &&
-                        says_position(name);
+    const bool actual =
+        columns.commanded && !columns.actual && !columns.error && !log.block && says_position(name);
     if (!actual && (columns.commanded || !(columns.actual || columns.error || log.block))) {
         log.unused.push_back(name);
         return;

@@ -131,11 +131,11 @@ void follow_order(const TextTable& table, std::vector<IsoPoint>& points, int way
     if (starts.empty()) starts = starts_by_steps(points, way != 0);
     PassesRead read;
     for (std::size_t k = 0; k < starts.size(); ++k)
-        follow_steps(table, points, starts[k], k + 1 < starts.size() ? starts[k + 1] : points.size(),
-                     read);
+        follow_steps(table, points, starts[k],
+                     k + 1 < starts.size() ? starts[k + 1] : points.size(), read);
     const int first = points.front().direction;
-    const bool one_way = std::all_of(points.begin(), points.end(),
-                                     [&](auto& p) { return p.direction == first; });
+    const bool one_way =
+        std::all_of(points.begin(), points.end(), [&](auto& p) { return p.direction == first; });
     if (way != 0 && one_way)
         for (IsoPoint& point : points) point.direction = way;
 }

@@ -74,8 +74,8 @@ bool filler(const std::string& word) {
 
 /// "ref_pos", "act pos": the position that was read.
 bool is_reading(const std::string& word) {
-    static const std::set<std::string> words{"ref", "reference", "act", "actual", "meas",
-                                             "measured"};
+    static const std::set<std::string> words{"ref",    "reference", "act",
+                                             "actual", "meas",      "measured"};
     return words.contains(word);
 }
 

@@ -269,7 +269,7 @@ void TextTable::read_head(const std::vector<Line>& lines, std::size_t begin, std
         std::string_view text = lines[i].text;
         while (!text.empty() && one_of(text[0], "#%*! \"")) text.remove_prefix(1);
         if (const auto way = direction_of_heading(std::string(text)))
-            head_["direction"] = {*way, lines[i]};
+            head_["heading direction"] = {*way, lines[i]};
         const std::string cuts = std::string(":=;\t") + (dialect_.separator == ',' ? "," : "");
         const std::size_t cut = text.find_first_of(cuts);
         if (cut == std::string_view::npos) continue;

@@ -23,9 +23,9 @@ std::vector<std::string> words_in(const std::string& text) {
 }
 
 bool both_ways(const std::string& word) {
-    static const std::set<std::string> words{"both",  "bi",  "bidirectional", "bi-directional",
-                                             "beide", "+-",  "-+",            "\xC2\xB1",
-                                             "+/-",   "alternating"};
+    static const std::set<std::string> words{
+        "both", "bi",       "bidirectional", "bi-directional", "beide", "+-",
+        "-+",   "\xC2\xB1", "+/-",           "alternating"};
     return words.contains(word);
 }
 
@@ -69,7 +69,9 @@ std::optional<std::string> direction_of_heading(const std::string& text) {
         return std::any_of(words.begin(), words.end(),
                            [&](const std::string& w) { return ((w == names) || ...); });
     };
-    if (words.size() < 2 || text.find_first_of(":=") != text.npos || !is("direction", "richtung", "pass", "passes", "runs")) return {};
+    if (words.size() < 2 || text.find_first_of(":=") != text.npos ||
+        !is("direction", "richtung", "pass", "passes", "runs"))
+        return {};
     if (direction_in(text).value_or(0) == 0) return std::nullopt;
     for (const std::string& word : words)  // "pass 1" is a number
         if (word.size() > 1 && word.find_first_of("0123456789") == word.npos && sign_of(word) != 0)

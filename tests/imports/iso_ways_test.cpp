@@ -18,7 +18,8 @@ constexpr auto iso = imports::ImportKind::iso230_2;
 
 const std::string up = "0,0,0.4\n100,1,1.4\n200,2,2.4\n", down = "0,3,3.4\n100,5,5.4\n200,4,4.4\n";
 const std::string one_table =
-    "target [mm],1+ [um],1- [um],2+ [um],2- [um]\n0,0,3,0.4,3.4\n100,1,5,1.4,5.4\n200,2,4,2.4,4.4\n";
+    "target [mm],1+ [um],1- [um],2+ [um],2- "
+    "[um]\n0,0,3,0.4,3.4\n100,1,5,1.4,5.4\n200,2,4,2.4,4.4\n";
 
 bool has(const std::vector<std::string>& list, const std::string& part) {
     return std::any_of(list.begin(), list.end(),
@@ -60,6 +61,16 @@ TEST_CASE("two tables with the two directions of an axis are one test", "[import
               "the two directions of one test"));
 }
 
+TEST_CASE("the two directions in two files keep two zeros, with a note", "[imports][ways]") {
+    const setup::Setup setup = import_bench::setup();
+    const std::vector<imports::ImportFile> files{{"a.txt", "target [mm],1+ [um]\n0,0\n100,1\n"},
+                                                 {"b.txt", "target [mm],1- [um]\n0,0\n100,1\n"}};
+    const imports::Imported result =
+        imports::import_readings(iso, {setup, files, imports::Facts({"axis=X"}), {}});
+    CHECK_THAT(result.readings, Catch::Contains(",X_2,linear"));
+    CHECK(has(result.notes, "a.txt and b.txt: the two directions of X in two files"));
+}
+
 TEST_CASE("displacements of two tables count from one zero", "[imports][ways]") {
     const auto rows = read_rows(import_bench::setup(),
                                 {iso,
@@ -96,6 +107,9 @@ TEST_CASE("a direction above a table is understood or refused", "[imports][ways]
             "the runs have no direction", 2);
     refuses(setup, {iso, "Direction: backward\n" + one_table, {"axis=X"}, ""},
             "contradicts the direction 'backward'", 2);
+    refuses(setup, {iso, one_table, {"axis=X", "sense=sideways"}, ""}, "not 'sideways'", 0);
+    refuses(setup, {iso, "Direction: forward\nData backward direction\n" + plain, {"axis=X"}, ""},
+            "contradicts the direction 'forward'", 2);
     CHECK(rows_of("Direction: bidirectional\n" + one_table) == rows_of(one_table));
     CHECK(rows_of("Pass 1\n" + one_table) == rows_of(one_table));
     refuses(setup,
@@ -150,8 +164,9 @@ TEST_CASE("a backward pass listed from the first target on is read in reverse", 
                       against = "1,-,0,3\n1,-,100,5\n1,-,200,4\n",
                       right = "1,-,200,4\n1,-,100,5\n1,-,0,3\n";
     CHECK(rows_of(head + forward + against) == rows_of(head + forward + right));
-    CHECK(has(imported(import_bench::setup(), {iso, head + forward + against, {"axis=X"}, ""}).notes,
-              "read in reverse"));
+    CHECK(
+        has(imported(import_bench::setup(), {iso, head + forward + against, {"axis=X"}, ""}).notes,
+            "read in reverse"));
     // With times of its own the order is that of the file.
     refuses(import_bench::setup(),
             {iso, "time [s]," + head + "0,1,-,0,3\n1,1,-,100,5\n2,1,-,200,4\n", {"axis=X"}, ""},
@@ -175,14 +190,15 @@ TEST_CASE("a clock that is invented is always told", "[imports][ways]") {
 TEST_CASE("positions without a unit are in that of their targets, never in another",
           "[imports][ways]") {
     const setup::Setup setup = import_bench::setup();
-    const std::string positions =
-                          "target,1+,1-\n0,0.001,0.003\n100,100.002,100.004\n200,200,200\n",
+    const std::string positions = "target,1+,1-\n0,0.001,0.003\n100,100.002,100.004\n200,200,200\n",
                       deviations = "target,1+,1-\n0,1,3\n100,2,4\n";
     CHECK(*read_rows(setup, {iso, positions, {"axis=X"}, ""})[1].value_mm == Approx(0.002));
     refuses(setup, {iso, positions, {"axis=X", "unit=um"}, ""}, "the numbers of the targets", 1);
     refuses(setup,
-            {iso, "Position;0;100;200\nRun 1 up;0,1;100,3;200,2\nRun 1 down;0,2;100,1;200,3\n",
-             {"axis=X", "unit=um"}, ""},
+            {iso,
+             "Position;0;100;200\nRun 1 up;0,1;100,3;200,2\nRun 1 down;0,2;100,1;200,3\n",
+             {"axis=X", "unit=um"},
+             ""},
             "the numbers of the targets", 1);
     CHECK(*read_rows(setup, {iso, positions, {"axis=X", "unit=um", "values=deviations"}, ""})[1]
                .value_mm == Approx(0.100002));
