@@ -10,6 +10,7 @@
 #include "base/alarm.h"
 #include "base/units.h"
 #include "imports/iso_test.h"
+#include "imports/iso_values.h"
 #include "imports/row_writer.h"
 #include "imports/rtl.h"
 #include "imports/told_direction.h"

@@ -41,9 +41,4 @@ void step_times(const Facts& facts, std::vector<IsoPoint>& points);
 std::vector<IsoSeries> read_iso_points(const TextTable& table, const Facts& facts,
                                        const IsoQuantities& quantities, Imported& result);
 
-/// Values are positions if the user says so, or if they follow the targets. Then subtracts the
-/// targets; displacements are counted from the first reading.
-void take_deviations(const TextTable& table, const Facts& facts, const IsoQuantities& quantities,
-                     std::vector<IsoPoint>& points, std::vector<std::string>& notes);
-
 }  // namespace trunnion::imports

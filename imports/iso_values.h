@@ -31,4 +31,9 @@ void refuse_numbers_of_targets(const IsoSource& source, const std::vector<IsoPoi
 /// A note on the units that no column has.
 void note_units(const IsoSource& source, std::vector<std::string>& notes);
 
+/// Values are positions if the user says so, or if they follow the targets. Then subtracts the
+/// targets; displacements are counted from the first reading.
+void take_deviations(const TextTable& table, const Facts& facts, const IsoQuantities& quantities,
+                     std::vector<IsoPoint>& points, std::vector<std::string>& notes);
+
 }  // namespace trunnion::imports
