@@ -1,6 +1,5 @@
 #include "imports/told_direction.h"
 
-#include <algorithm>
 #include <set>
 #include <utility>
 #include <vector>
@@ -65,18 +64,11 @@ std::optional<int> direction_in(const std::string& text) {
 }
 
 std::optional<std::string> direction_of_heading(const std::string& text) {
-    const std::vector<std::string> words = words_in(lower_case(text));
-    const auto is = [&](auto... names) {
-        return std::any_of(words.begin(), words.end(),
-                           [&](const std::string& w) { return ((w == names) || ...); });
-    };
-    if (words.size() < 2 || text.find_first_of(":=") != text.npos ||
-        !is("direction", "richtung", "pass", "passes", "runs"))
-        return {};
-    if (direction_in(text).value_or(0) == 0) return std::nullopt;
-    for (const std::string& word : words)  // "pass 1" is a number
-        if (word.size() > 1 && word.find_first_of("0123456789") == word.npos && sign_of(word) != 0)
-            return word;
+    // "Pass 1" is a number, "Direction: +" a line with a key.
+    if (text.find_first_of("0123456789:=") != text.npos || direction_in(text).value_or(0) == 0)
+        return std::nullopt;
+    for (const std::string& word : words_in(lower_case(text)))
+        if (word.size() > 1 && sign_of(word) != 0) return word;
     return std::nullopt;
 }
 

@@ -56,6 +56,7 @@ TEST_CASE("two tables with the two directions of an axis are one test", "[import
           expected);
     CHECK(rows_of("## Data forward direction\n" + plain + up + "## Data backward direction\n" +
                   plain + down) == expected);
+    CHECK(rows_of("Forward\n" + plain + up + ";Reverse;;\n" + plain + down) == expected);
     CHECK(rows_of("Richtung: +\n" + plain + up + "\nRichtung: X-\n" + plain + down) == expected);
     CHECK(has(imported(import_bench::setup(), {iso, plus + "\n" + minus, {"axis=X"}, ""}).notes,
               "the two directions of one test"));
