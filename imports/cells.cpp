@@ -29,28 +29,65 @@ bool is_blank(char c) {
     return c == ' ' || c == '\t';
 }
 
+/// A number between two separators. Quotes are not looked at: a remark may have one.
+bool number_between(std::string_view text, char separator) {
+    const Dialect point{separator, false}, comma{separator, separator != ','};
+    for (std::size_t k = 0; k <= text.size();) {
+        const std::size_t end = std::min(text.find(separator, k), text.size());
+        std::string_view cell = records::without_blanks(text.substr(k, end - k));
+        if (cell.size() > 1 && cell.front() == '"' && cell.back() == '"')
+            cell = cell.substr(1, cell.size() - 2);
+        if (point.find_number(cell) || comma.find_number(cell)) return true;
+        k = end + 1;
+    }
+    return false;
+}
+
 /// Largest number of consecutive lines that `separator` splits into the same number of cells, two
-/// or more.
+/// or more, at least one of them a number. Lines of remarks have commas too.
 std::size_t longest_run(const std::vector<records::TableLine>& lines, char separator) {
     std::size_t best = 0, run = 0;
+    bool numbers = false;
     std::ptrdiff_t last = 0;
     for (const records::TableLine& line : lines) {
         const auto count = std::count(line.text.begin(), line.text.end(), separator);
-        run = count > 0 && count == last ? run + 1 : 1;
+        const bool goes_on = count > 0 && count == last;
+        run = goes_on ? run + 1 : 1;
         last = count;
-        if (count > 0) best = std::max(best, run);
+        if (count == 0) continue;
+        numbers = (goes_on && numbers) || number_between(line.text, separator);
+        if (numbers) best = std::max(best, run);
     }
     return best;
 }
 
-/// "0,5  1,25": numbers with decimal comma, separated by blanks.
-bool commas_between_blanks(const std::vector<records::TableLine>& lines) {
-    const Dialect comma{' ', true};
+/// Largest number of consecutive lines of as many numbers, two or more, between blanks only.
+std::size_t longest_run_between_blanks(const std::vector<records::TableLine>& lines) {
+    const Dialect point{' ', false};
+    std::size_t best = 0, run = 0, last = 0;
     for (const records::TableLine& line : lines) {
         const Cells cells = cells_of(line, ' ');
-        const auto number = [&](const auto& cell) { return comma.find_number(cell.text); };
-        if (cells.size() > 1 && has_decimal_comma(line.text) &&
-            std::all_of(cells.begin(), cells.end(), number))
+        const bool numbers =
+            cells.size() > 1 && std::all_of(cells.begin(), cells.end(), [&](const auto& cell) {
+                return point.find_number(cell.text).has_value();
+            });
+        run = !numbers ? 0 : cells.size() == last ? run + 1 : 1;
+        last = cells.size();
+        best = std::max(best, run);
+    }
+    return best;
+}
+
+/// A line of numbers only, two or more between blanks, at least one with this decimal mark:
+/// "0,5  1,25". Remarks hold other words.
+bool marks_between_blanks(const std::vector<records::TableLine>& lines, char mark) {
+    const Dialect dialect{' ', mark == ','};
+    for (const records::TableLine& line : lines) {
+        const Cells cells = cells_of(line, ' ');
+        const auto number = [&](const auto& cell) { return dialect.find_number(cell.text); };
+        const bool marked = mark == ',' ? has_decimal_comma(line.text)
+                                        : line.text.find(mark) != std::string_view::npos;
+        if (cells.size() > 1 && marked && std::all_of(cells.begin(), cells.end(), number))
             return true;
     }
     return false;
@@ -105,8 +142,8 @@ void drop_empty_end(std::vector<records::TableCell>& cells) {
 }
 
 bool is_missing(std::string_view text) {
-    static constexpr std::array<std::string_view, 9> words{"-",  "--",   "---",  "nan", "n/a",
-                                                           "na", "n.a.", "null", "#n/a"};
+    static constexpr std::array<std::string_view, 11> words{
+        "-", "--", "---", "nan", "n/a", "na", "n.a.", "null", "#n/a", "out of range", "overrange"};
     if (text.find_first_not_of('*') == std::string_view::npos) return true;  // also when empty
     std::string lower(text);
     for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -127,12 +164,13 @@ bool is_data(const Cells& cells, const Dialect& dialect) {
 
 Dialect dialect_of(const std::vector<records::TableLine>& lines) {
     Dialect dialect{' ', false};
+    const std::size_t blanks = longest_run_between_blanks(lines);
     std::size_t best = 1;
     for (const char candidate : {'\t', ';', ',', '|'}) {
         // With ; or tabs, and between blanks, commas are decimal marks.
-        if (candidate == ',' && (best > 1 || commas_between_blanks(lines))) continue;
+        if (candidate == ',' && (best > 1 || marks_between_blanks(lines, ','))) continue;
         const std::size_t run = longest_run(lines, candidate);
-        if (run <= best) continue;
+        if (run <= best || run < blanks) continue;
         best = run;
         dialect.separator = candidate;
     }
@@ -140,6 +178,7 @@ Dialect dialect_of(const std::vector<records::TableLine>& lines) {
     dialect.decimal_comma = std::any_of(lines.begin(), lines.end(), [](const auto& line) {
         return line.text[0] != '#' && has_decimal_comma(line.text);
     });
+    if (dialect.separator == ' ' && marks_between_blanks(lines, '.')) dialect.decimal_comma = false;
     const bool one = cells_of(lines.back(), ' ').size() == 1;
     if (dialect.separator == ' ' && dialect.decimal_comma && one)
         throw InputError("a comma may be decimal mark or separator here: use ; between columns",

@@ -31,6 +31,7 @@ constexpr std::pair<const char*, Word> spellings[] = {
     {"ref", Word::commanded},
     {"reference", Word::commanded},
     {"target", Word::commanded},
+    {"tgt", Word::commanded},
     {"nominal", Word::commanded},
     {"nom", Word::commanded},
     {"demand", Word::commanded},
@@ -141,11 +142,20 @@ std::string short_name(const std::string& word) {
     return it == names.end() ? word : it->second;
 }
 
+/// An axis whose name is a letter other than those of ISO 841: "R", "Q".
+std::optional<std::string> unusual_letter(const std::string& word, const AxisNames& axes) {
+    if (word.size() != 1 || is_axis(word.front())) return std::nullopt;
+    for (const Axis axis : all_axes)
+        if (lower_case(axes[axis]) == word) return axes[axis];
+    return std::nullopt;
+}
+
 /// An axis with a name other than a letter: "J3" for "j3", "joint 3", "a3", "axis 3".
 std::optional<std::string> named_axis(const std::string& word, const std::string& next,
                                       const AxisNames& axes) {
     static const std::set<std::string> joints{"joint", "axis", "gelenk", "achse", "j",
                                               "a",     "q",    "theta",  "ax"};
+    if (const auto letter = unusual_letter(word, axes)) return letter;
     auto [letters, digits] = parts_of(short_name(word));
     if (digits.empty() && only_digits(next)) digits = next;
     for (const Axis axis : all_axes) {

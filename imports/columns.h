@@ -56,7 +56,8 @@ class TimeColumn {
     double time_s(const TextTable& table, std::size_t row,
                   const std::vector<records::TableCell>& cells) const;
     bool is_column(std::size_t k) const { return column_ == k || date_ == k; }
-    bool dated() const { return dated_; }  ///< seconds since 1970
+    bool is_told() const { return column_.has_value(); }  ///< the file has times
+    bool dated() const { return dated_; }                 ///< seconds since 1970
     bool invented() const { return !column_ && step_s_ == one_minute_s; }
     std::string words() const;  ///< "times from 'Timestamp'", "0.1 s a row" ...
 

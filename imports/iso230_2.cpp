@@ -9,9 +9,11 @@
 
 #include "base/alarm.h"
 #include "base/units.h"
-#include "imports/iso_points.h"
+#include "imports/iso_test.h"
+#include "imports/iso_values.h"
 #include "imports/row_writer.h"
 #include "imports/rtl.h"
+#include "imports/told_direction.h"
 
 namespace trunnion::imports {
 namespace {
@@ -27,15 +29,8 @@ Vector3 direction_M(const setup::Setup& setup, Axis axis) {
     return carries_work ? Vector3(-chain.find(axis)->direction) : chain.find(axis)->direction;
 }
 
-/// The moving axis and its name.
-struct MovedAxis {
-    Axis axis = Axis::X;
-    bool rotary = false;
-    std::string name;
-};
-
-void write_points(const TextTable& table, const std::vector<IsoPoint>& points, records::Reading row,
-                  const MovedAxis& moved, RowWriter& rows) {
+void write_points(const std::vector<IsoPoint>& points, records::Reading row, const MovedAxis& moved,
+                  RowWriter& rows) {
     const Axis axis = moved.axis;
     const double overrun = moved.rotary ? overrun_rad : overrun_mm;
     const records::Device device = row.device;
@@ -56,7 +51,7 @@ void write_points(const TextTable& table, const std::vector<IsoPoint>& points, r
         row.device = device;
         row.commanded[axis] = p.target;
         row.value_mm = p.deviation;
-        rows.add(row, table.line(p.row).number);
+        rows.add(row, p.line);
     }
 }
 
@@ -105,14 +100,6 @@ Vector3 unit_vector(const std::string& key, const std::string& letter) {
     return Vector3::Unit(static_cast<Eigen::Index>(d));
 }
 
-/// The quantity read while the axis moved: its position or, if stated, its straightness (`along`)
-/// or its pitch, yaw or roll (`about`).
-struct WhatWasRead {
-    bool angular = false;
-    Vector3 direction_M;
-    std::string test;
-};
-
 WhatWasRead what_was_read(const setup::Setup& setup, const MovedAxis& moved, const Facts& facts) {
     for (const char* key : {"along", "about"})
         if (facts.has(key))
@@ -135,29 +122,38 @@ class IsoImport {
 
     void take(const TextTable& table) {
         const Facts facts = request_.facts.with_head_of(table);
-        rows_.begin_file(table, facts);
         const setup::Setup& setup = request_.setup;
-        for (const IsoSeries& series :
-             read_iso_points(table, facts, quantities_of(setup, facts), result)) {
+        const IsoQuantities quantities = quantities_of(setup, facts);
+        for (IsoSeries& series : read_iso_points(table, facts, quantities, result)) {
             const MovedAxis axis =
                 axis_of(table, setup, series.axis.empty() ? facts.text("axis") : series.axis);
-            const WhatWasRead what = what_was_read(setup, axis, facts);
-            if (series.dated) rows_.name_days();
-            rows_.begin_run();
-            write_points(table, series.points, row_of(what, facts), axis, rows_);
-            tell(table, series.points, axis, what.angular, result);
+            add_test(tests_,
+                     {&table, facts, quantities, axis, what_was_read(setup, axis, facts),
+                      std::move(series)},
+                     result.notes);
         }
     }
 
+    void write() {
+        for (IsoTest& test : tests_) {
+            std::vector<IsoPoint>& points = test.series.points;
+            take_deviations(*test.table, test.facts, test.quantities, points, result.notes);
+            rows_.begin_file(*test.table, test.facts);
+            if (test.series.dated) rows_.name_days();
+            write_points(points, row_of(test.what, test.facts), test.axis, rows_);
+            tell(*test.table, points, test.axis, test.what.angular, result);
+        }
+        result.readings = rows_.take();
+    }
+
     Imported result;
-    std::string take_rows() { return rows_.take(); }
 
   private:
     records::Reading row_of(const WhatWasRead& what, const Facts& facts) {
         const setup::Setup& setup = request_.setup;
         records::Reading row;
         row.test = facts.text("test", what.test);
-        const int again = ++tests_[row.test];
+        const int again = ++names_[row.test];
         if (again > 1) row.test += '_' + std::to_string(again);
         row.device = what.angular ? records::Device::angle : records::Device::linear;
         row.angular = what.angular;
@@ -170,7 +166,8 @@ class IsoImport {
 
     const ImportRequest& request_;
     RowWriter rows_;
-    std::map<std::string, int> tests_;
+    std::vector<IsoTest> tests_;
+    std::map<std::string, int> names_;  ///< tests of each name
 };
 
 }  // namespace
@@ -181,10 +178,14 @@ Imported import_iso230_2(const ImportRequest& request) {
     for (ImportFile& file : files)
         if (is_rtl(file.text)) file.text = table_of_rtl(file, request.facts, notes);
     const ImportRequest plain{request.setup, files, request.facts, request.map};
+    const std::string sense = request.facts.text("sense");
+    if (!sense.empty() && direction_in(sense).value_or(0) == 0)
+        throw InputError("--with: sense is forward or backward, + or - here, not '" + sense + "'");
     IsoImport import(plain);
     import.result.notes = std::move(notes);
-    for (const TextTable& table : tables_of(plain, import.result.notes)) import.take(table);
-    import.result.readings = import.take_rows();
+    const std::vector<TextTable> tables = tables_of(plain, import.result.notes);
+    for (const TextTable& table : tables) import.take(table);
+    import.write();
     return std::move(import.result);
 }
 

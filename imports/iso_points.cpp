@@ -4,33 +4,18 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
-#include <numeric>
 
 #include "base/alarm.h"
-#include "base/numbers.h"
-#include "base/units.h"
 #include "imports/column_roles.h"
+#include "imports/iso_values.h"
 #include "imports/pass_order.h"
 #include "imports/run_names.h"
+#include "imports/told_direction.h"
 
 namespace trunnion::imports {
 namespace {
 
 using Cells = std::vector<records::TableCell>;
-
-/// A table and the known facts about its numbers.
-struct Source {
-    const TextTable& table;
-    const Facts& facts;
-    IsoQuantities quantities;
-    std::size_t target = 0;  ///< column
-    double factor = 1.0;     ///< of the targets, to mm or rad
-};
-
-std::string usual_unit(Quantity quantity) {
-    return quantity == Quantity::angle ? "deg" : "mm";
-}
 
 /// "Soll-Pos.", "X target": by the words of the name, with an axis in it or without.
 std::optional<std::size_t> column_of_role(const TextTable& table, Role wanted) {
@@ -44,7 +29,8 @@ std::optional<std::size_t> column_of_role(const TextTable& table, Role wanted) {
 
 std::optional<std::size_t> target_column(const TextTable& table) {
     const auto named = find_first_column(
-        table, {{"target", "targetposition", "targetpos", "ziel", "zielposition", "zielpos"},
+        table, {{"target", "targetposition", "targetpos", "tgt", "tgtpos", "tgtposi", "tgtposij",
+                 "ziel", "zielposition", "zielpos"},
                 {"nominal", "nominalposition", "soll", "sollposition", "sollwert", "nominalangle"},
                 {"commanded", "command", "cmd", "commandedposition", "setpoint", "reference",
                  "referenceangle", "ref"},
@@ -57,73 +43,9 @@ std::string word_before(const std::string& name) {
     return name.substr(0, name.find_first_of("0123456789"));
 }
 
-double value_factor(const Source& source, std::size_t column) {
-    return number_column(source.table, column, source.quantities.value, source.facts.text("unit"))
-        .factor;
-}
-
-/// Values beside their targets, in one unit.
-struct Beside {
-    std::vector<double> targets, apart;  ///< apart: value - target
-
-    bool positions() const {  ///< "100.003" at the target 100
-        return sum(apart, 0.0) < 0.05 * sum(targets, 0.0);
-    }
-    bool displacements() const {  ///< "200.003" at the target 100: counted from another zero
-        return spread(apart) < 0.05 * spread(targets);
-    }
-    /// What deviations do not do: change as much as the targets.
-    bool as_far_as_targets(const std::vector<double>& values) const {
-        return spread(targets) > 0.0 && spread(values) > 0.5 * spread(targets);
-    }
-
-  private:
-    static double sum(const std::vector<double>& list, double from) {
-        double total = 0.0;
-        for (const double v : list) total += std::abs(v - from);
-        return total;
-    }
-    static double spread(const std::vector<double>& list) {
-        const double total = std::accumulate(list.begin(), list.end(), 0.0);
-        return sum(list, total / static_cast<double>(std::max<std::size_t>(1, list.size())));
-    }
-};
-
-/// Values are positions if the user says so, or if they follow the targets. Then subtracts the
-/// targets; displacements are counted from the first reading.
-void take_deviations(const Source& source, std::vector<IsoPoint>& points,
-                     std::vector<std::string>& notes) {
-    const bool angle = source.quantities.target == Quantity::angle;
-    Beside beside;
-    std::vector<double> values;
-    for (const IsoPoint& p : points) {
-        const double apart = p.deviation - p.target;
-        beside.targets.push_back(p.target);
-        beside.apart.push_back(angle ? std::remainder(apart, 2.0 * pi) : apart);
-        values.push_back(p.deviation);
-    }
-    const std::string told = source.facts.text("values");
-    const bool same = source.quantities.value == source.quantities.target;
-    const bool positions = told.empty() ? same && beside.positions() : told == "positions";
-    if (positions || (told.empty() && same && beside.displacements())) {
-        const double zero = positions ? 0.0 : beside.apart.front();
-        for (std::size_t k = 0; k < points.size(); ++k)
-            points[k].deviation = values[k] = beside.apart[k] - zero;
-        notes.push_back(source.table.path() +
-                        (positions ? ": values are positions: deviation = value - target"
-                                   : ": values are displacements: deviation = value - target, "
-                                     "counted from the first reading"));
-    }
-    if (told != "deviations" && same && beside.as_far_as_targets(values))
-        source.table.header_line().fail(
-            "the values change as much as the targets: another column, unit or sign? "
-            "--with values=deviations takes them as they are",
-            1);
-}
-
 /// Sorts a pass by its direction: a file has its targets rising or falling. A length that does both
 /// is a slip of the pen; an angle may pass zero.
-void sort_pass(const Source& source, std::vector<IsoPoint>& pass) {
+void sort_pass(const IsoSource& source, std::vector<IsoPoint>& pass) {
     double trend = 0.0;
     for (std::size_t k = 1; k < pass.size(); ++k) {
         const double step = pass[k].target - pass[k - 1].target;
@@ -136,15 +58,30 @@ void sort_pass(const Source& source, std::vector<IsoPoint>& pass) {
     });
 }
 
-void step_times(const Facts& facts, std::vector<IsoPoint>& points) {
-    const double step_s = facts.positive("step_s").value_or(60.0);
-    for (std::size_t k = 0; k < points.size(); ++k)
-        points[k].time_s = step_s * static_cast<double>(k);
-}
-
 /// In measured order: run 1 up, run 1 down, run 2 up ...
 bool before(const RunName& a, const RunName& b) {
     return std::pair(a.run, -a.direction) < std::pair(b.run, -b.direction);
+}
+
+/// Direction of a pass whose name is `name`. One told above the table must not contradict it.
+int way_of(const IsoSource& source, const std::string& name, int direction) {
+    if (source.way != 0 && direction != 0 && direction != source.way)
+        source.table.header_line().fail("'" + name + "' contradicts the direction '" +
+                                            source.way_text + "' told for this table",
+                                        1);
+    return direction != 0 ? direction : source.way;
+}
+
+/// Direction of runs whose names have none.
+int way_of_plain_runs(const IsoSource& source, std::vector<std::string>& notes) {
+    if (source.way != 0) return source.way;
+    if (!source.way_text.empty())
+        source.table.header_line().fail(
+            "the runs have no direction (\"1+\", \"1-\"), and '" + source.way_text +
+                "' above the table is not one of them: --with sense=forward or backward tells it",
+            1);
+    notes.push_back(source.table.path() + ": runs without a direction taken as towards +");
+    return 1;
 }
 
 struct RunColumn {
@@ -152,37 +89,39 @@ struct RunColumn {
     RunName name;
 };
 
-std::vector<RunColumn> run_columns(const TextTable& table, std::size_t target,
-                                   std::vector<std::string>& notes) {
+std::vector<RunColumn> run_columns(const IsoSource& source, std::vector<std::string>& notes) {
     std::vector<RunColumn> runs, ways, plain;
-    for (std::size_t k = 0; k < table.columns().size(); ++k) {
-        if (k == target) continue;
-        RunName name = run_name(table.columns()[k].name);
+    const std::vector<TextColumn>& columns = source.table.columns();
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+        if (k == source.target) continue;
+        const RunName name = run_name(columns[k].name);
         if (name.run > 0 && name.direction != 0) runs.push_back({k, name});
         if (name.run == 0 && name.direction != 0 && !name.other)
             ways.push_back({k, {1, name.direction, false}});
         if (name.run > 0 && name.direction == 0 && !name.other)
-            plain.push_back({k, {name.run, 1, false}});
+            plain.push_back({k, {name.run, 0, false}});
     }
     if (runs.empty()) runs = ways;
     if (runs.empty() && !plain.empty()) {
         runs = plain;
-        notes.push_back(table.path() + ": runs without a direction taken as towards +");
+        const int way = way_of_plain_runs(source, notes);
+        for (RunColumn& run : runs) run.name.direction = way;
     }
+    for (const RunColumn& run : runs) way_of(source, columns[run.column].name, run.name.direction);
     std::stable_sort(runs.begin(), runs.end(),
                      [](const auto& a, const auto& b) { return before(a.name, b.name); });
     return runs;
 }
 
 /// "Mean" or "2 s" below the targets: results, not targets.
-bool is_result_row(const Source& source, const Cells& cells) {
+bool is_result_row(const IsoSource& source, const Cells& cells) {
     const std::string_view text = cells[source.target].text;
     return !text.empty() && !source.table.find_number(text) &&
            std::isalpha(static_cast<unsigned char>(text.front())) != 0;
 }
 
 /// Columns next to the targets, one for each run and direction.
-std::vector<IsoPoint> matrix_points(const Source& source, const std::vector<RunColumn>& runs) {
+std::vector<IsoPoint> matrix_points(const IsoSource& source, const std::vector<RunColumn>& runs) {
     std::vector<IsoPoint> points;
     Cells cells;
     for (const RunColumn& run : runs) {
@@ -193,7 +132,7 @@ std::vector<IsoPoint> matrix_points(const Source& source, const std::vector<RunC
             if (is_missing(cells[run.column].text) || is_result_row(source, cells)) continue;
             pass.push_back({number_in(source.table, i, cells, {source.target, source.factor}),
                             number_in(source.table, i, cells, {run.column, factor}), 0.0,
-                            run.name.run, run.name.direction, i});
+                            run.name.run, run.name.direction, i, 0});
         }
         sort_pass(source, pass);
         points.insert(points.end(), pass.begin(), pass.end());
@@ -209,8 +148,8 @@ bool targets_across(const TextTable& table) {
            std::all_of(table.columns().begin() + 1, table.columns().end(), number);
 }
 
-std::vector<IsoPoint> across_points(const Source& source) {
-    const auto& [table, facts, quantities, target, factor] = source;
+std::vector<IsoPoint> across_points(const IsoSource& source) {
+    const auto& [table, facts, quantities, target, factor, way, way_text] = source;
     const std::string& told = table.columns()[0].unit;
     const auto unit = find_unit(told.empty() ? usual_unit(quantities.target) : told);
     const auto value_unit = find_unit(facts.text("unit"));
@@ -220,7 +159,8 @@ std::vector<IsoPoint> across_points(const Source& source) {
     Cells cells;
     for (std::size_t i = 0; i < table.size(); ++i) {
         table.read(i, cells);
-        const RunName name = run_name(cells[0].plain());
+        RunName name = run_name(cells[0].plain());
+        name.direction = way_of(source, cells[0].plain(), name.direction);
         if (name.run == 0 || name.direction == 0) {
             if (name.other) continue;  // "mean up"
             table.line(i).fail("run and direction expected here: '1+', 'Run 2 down'", 1);
@@ -231,7 +171,7 @@ std::vector<IsoPoint> across_points(const Source& source) {
                 pass.push_back({table.find_number(table.columns()[k].name).value_or(0.0) *
                                     (unit ? unit->factor : 1.0),
                                 number_in(table, i, cells, {k, value_unit->factor}), 0.0, name.run,
-                                name.direction, i});
+                                name.direction, i, 0});
         sort_pass(source, pass);
         passes.emplace_back(name, std::move(pass));
     }
@@ -239,6 +179,7 @@ std::vector<IsoPoint> across_points(const Source& source) {
                      [](const auto& a, const auto& b) { return before(a.first, b.first); });
     std::vector<IsoPoint> points;
     for (const auto& [name, pass] : passes) points.insert(points.end(), pass.begin(), pass.end());
+    refuse_numbers_of_targets(source, points, unit ? unit->factor : 1.0, value_unit->factor);
     step_times(facts, points);
     return points;
 }
@@ -249,26 +190,7 @@ struct ListColumns {
     std::optional<std::size_t> run, direction, axis;
 };
 
-/// A value without unit next to its target is a position, in the unit of the target.
-double list_factor(const Source& source, std::size_t column) {
-    const TextTable& table = source.table;
-    if (!table.columns()[column].unit.empty() || source.facts.has("unit"))
-        return value_factor(source, column);
-    Beside beside;
-    Cells cells;
-    for (std::size_t i = 0; i < table.size(); ++i) {
-        table.read(i, cells);
-        const auto target = table.find_number(cells[source.target].text),
-                   value = table.find_number(cells[column].text);
-        if (!target || !value) continue;
-        beside.targets.push_back(*target);
-        beside.apart.push_back(*value - *target);
-    }
-    const bool follow = beside.positions() || beside.displacements();
-    return follow ? source.factor : value_factor(source, column);
-}
-
-ListColumns list_columns(const Source& source) {
+ListColumns list_columns(const IsoSource& source) {
     const TextTable& table = source.table;
     auto value = find_first_column(
         table, {{"deviation", "error", "abweichung", "fehler", "dev", "err", "positionerror",
@@ -283,7 +205,7 @@ ListColumns list_columns(const Source& source) {
     if (!value || *value == source.target)
         table.header_line().fail("no column of deviations and no columns of runs (\"1+\", \"1-\")",
                                  1);
-    ListColumns columns{{*value, list_factor(source, *value)}, {}, {}, {}};
+    ListColumns columns{{*value, value_factor(source, *value)}, {}, {}, {}};
     columns.run = find_column(
         table, {"run", "cycle", "lauf", "zyklus", "repeat", "wiederholung", "series", "i"});
     columns.direction = find_column(table, {"direction", "dir", "richtung", "sense", "approach"});
@@ -291,7 +213,7 @@ ListColumns list_columns(const Source& source) {
     return columns;
 }
 
-IsoPoint list_point(const Source& source, const ListColumns& columns, std::size_t i,
+IsoPoint list_point(const IsoSource& source, const ListColumns& columns, std::size_t i,
                     const Cells& cells) {
     const TextTable& table = source.table;
     IsoPoint point{number_in(table, i, cells, {source.target, source.factor}),
@@ -299,7 +221,8 @@ IsoPoint list_point(const Source& source, const ListColumns& columns, std::size_
                    0.0,
                    0,
                    0,
-                   i};
+                   i,
+                   0};
     if (columns.run) {
         const records::TableCell& cell = cells[*columns.run];
         const RunName name = run_name(cell.plain());
@@ -317,7 +240,7 @@ IsoPoint list_point(const Source& source, const ListColumns& columns, std::size_
 }
 
 /// One value a line, with or without columns for run, direction and axis.
-std::vector<IsoSeries> listed_series(const Source& source, Imported& result) {
+std::vector<IsoSeries> listed_series(const IsoSource& source, Imported& result) {
     const TextTable& table = source.table;
     const ListColumns columns = list_columns(source);
     const TimeColumn time(table, source.facts);
@@ -335,34 +258,69 @@ std::vector<IsoSeries> listed_series(const Source& source, Imported& result) {
         const std::string axis = columns.axis ? cells[*columns.axis].plain() : "";
         auto at = std::find_if(series.begin(), series.end(),
                                [&](const IsoSeries& s) { return s.axis == axis; });
-        if (at == series.end()) at = series.insert(at, {axis, {}, time.dated()});
+        if (at == series.end()) at = series.insert(at, {axis, {}, time.dated(), time.is_told()});
         at->points.push_back(point);
     }
-    result.notes.push_back(table.path() + ": " + time.words());
+    if (!time.invented()) result.notes.push_back(table.path() + ": " + time.words());
     if (missing > 0)
         result.notes.push_back(fmt::format("{}: {} line{} without a value", table.path(), missing,
                                            missing > 1 ? "s" : ""));
     return series;
 }
 
-void finish(const Source& source, IsoSeries& series, Imported& result) {
+void finish(const IsoSource& source, IsoSeries& series, Imported& result) {
     const TextTable& table = source.table;
     std::vector<IsoPoint>& points = series.points;
     if (points.empty()) throw InputError("no value in the table", {table.path(), 1, 1});
     if (source.quantities.target == Quantity::angle) unwrap_turns(points);
-    take_deviations(source, points, result.notes);
-    follow_order(table, points);
+    follow_order(table, points, source.way);
+    for (const IsoPoint& p : points)
+        if (source.way != 0 && p.direction != source.way)
+            table.fail(
+                p.row, 0,
+                "this contradicts the direction '" + source.way_text + "' told for this table");
+    if (!series.timed && turn_passes(points))
+        result.notes.push_back(table.path() +
+                               ": passes listed against their direction are read in reverse");
     check_order(table, points);
+    for (IsoPoint& p : points) p.line = table.line(p.row).number;
+    if (!series.timed && !source.facts.has("step_s"))
+        result.notes.push_back(table.path() + ": no times: rows one minute apart");
+}
+
+/// The direction that --with sense=, or a line above the table, tells. A heading ("Data backward
+/// direction") completes a line such as "Direction: bidirectional" of the whole file.
+void take_way(IsoSource& source) {
+    source.way_text = source.facts.text("sense");
+    source.way = direction_in(source.way_text).value_or(0);
+    const auto heading = source.table.head().find("heading direction");
+    if (heading == source.table.head().end()) return;
+    const std::string& text = heading->second.value;
+    const int way = direction_in(text).value_or(0);
+    if (source.way == -way)
+        source.table.head_line(heading->second)
+            .fail("'" + text + "' contradicts the direction '" + source.way_text +
+                      "' told for this table",
+                  1);
+    source.way = way;
+    source.way_text = text;
 }
 
 }  // namespace
 
+void step_times(const Facts& facts, std::vector<IsoPoint>& points) {
+    const double step_s = facts.positive("step_s").value_or(60.0);
+    for (std::size_t k = 0; k < points.size(); ++k)
+        points[k].time_s = step_s * static_cast<double>(k);
+}
+
 std::vector<IsoSeries> read_iso_points(const TextTable& table, const Facts& facts,
                                        const IsoQuantities& quantities, Imported& result) {
     std::vector<IsoSeries> list;
-    Source source{table, facts, quantities, 0, 1.0};
+    IsoSource source{table, facts, quantities, 0, 1.0, 0, ""};
+    take_way(source);
     if (targets_across(table)) {
-        list.push_back({"", across_points(source), false});
+        list.push_back({"", across_points(source), false, false});
     } else {
         const auto target = target_column(table);
         if (!target)
@@ -373,11 +331,12 @@ std::vector<IsoSeries> read_iso_points(const TextTable& table, const Facts& fact
         source.target = *target;
         source.factor =
             number_column(table, *target, quantities.target, usual_unit(quantities.target)).factor;
-        const auto runs = run_columns(table, *target, result.notes);
+        note_units(source, result.notes);
+        const auto runs = run_columns(source, result.notes);
         if (runs.empty())
             list = listed_series(source, result);
         else
-            list.push_back({"", matrix_points(source, runs), false});
+            list.push_back({"", matrix_points(source, runs), false, false});
     }
     for (IsoSeries& series : list) finish(source, series, result);
     return list;

@@ -15,6 +15,7 @@ struct IsoPoint {
     int run = 0;
     int direction = 0;  ///< +1 towards larger positions, -1
     std::size_t row = 0;
+    int line = 0;  ///< of the file
 };
 
 /// The values of one axis in one table.
@@ -22,6 +23,7 @@ struct IsoSeries {
     std::string axis;  ///< name in the file; empty: not given
     std::vector<IsoPoint> points;
     bool dated = false;  ///< times are seconds since 1970
+    bool timed = false;  ///< the file has times
 };
 
 /// Quantities of a table: of the axis, and of the device that read it.
@@ -29,9 +31,13 @@ struct IsoQuantities {
     Quantity target = Quantity::length, value = Quantity::length;
 };
 
+/// Times of points without any: a row each minute, or --with step_s=.
+void step_times(const Facts& facts, std::vector<IsoPoint>& points);
+
 /// Layouts: targets in rows and a column for each run and direction; runs in rows and a column for
-/// each target; one value a line, for one axis or several. Returns passes in measured order. Throws
-/// InputError with position; `result.notes` gets the assumptions.
+/// each target; one value a line, for one axis or several. Returns passes in measured order, with
+/// the values of the file for `deviation`. Throws InputError with position; `result.notes` gets the
+/// assumptions.
 std::vector<IsoSeries> read_iso_points(const TextTable& table, const Facts& facts,
                                        const IsoQuantities& quantities, Imported& result);
 

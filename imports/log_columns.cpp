@@ -70,14 +70,27 @@ std::optional<ColumnRole> role_in(const TextColumn& column, const AxisNames& nam
                              : std::nullopt;
 }
 
-/// "Az" next to "Az error" or "Az actual": the commanded position.
+/// "J5 pos", not "J5" alone.
+bool says_position(const std::string& name) {
+    const std::vector<std::string> words = words_of(name);
+    return std::any_of(words.begin(), words.end(), [](const std::string& word) {
+        return word == "pos" || word == "position" || word == "angle";
+    });
+}
+
+/// "Az" next to "Az error" or "Az actual": the commanded position. "J5 pos" next to "J5 target":
+/// the actual one.
 void take_plain(const TextTable& table, std::size_t k, const Facts& facts, AxisColumns& columns,
                 LogColumns& log) {
-    if (columns.commanded || !(columns.actual || columns.error || log.block)) {
-        log.unused.push_back(table.columns()[k].name);
+    const std::string& name = table.columns()[k].name;
+    const bool actual =
+        columns.commanded && !columns.actual && !columns.error && !log.block && says_position(name);
+    if (!actual && (columns.commanded || !(columns.actual || columns.error || log.block))) {
+        log.unused.push_back(name);
         return;
     }
-    columns.commanded =
+    if (actual) log.taken_as_actual.push_back(name);
+    (actual ? columns.actual : columns.commanded) =
         number_column(table, k, quantity_of(columns.rotary, Rate::position),
                       facts.text("unit", usual_unit(columns.rotary, Rate::position)));
 }
@@ -91,10 +104,14 @@ void check(const TextTable& table, const LogColumns& log, const setup::Setup& se
     std::string axes;
     for (const kinematics::AxisGeometry& axis : setup.machine.chain.axes())
         axes += (axes.empty() ? "" : ", ") + setup.machine.chain.names()[axis.axis];
-    table.header_line().fail("no axis of the machine (" + axes +
-                                 ") has both a commanded and an actual position (\"X commanded\", "
-                                 "\"X actual\"); --with columns= names them in their order",
-                             1);
+    const kinematics::AxisGeometry first = setup.machine.chain.axes().front();
+    const std::string name = setup.machine.chain.names()[first.axis];
+    table.header_line().fail(
+        fmt::format("no axis of the machine ({0}) has both a commanded and an actual position: "
+                    "\"{1} commanded\" (cmd, target, set, ref, soll) and \"{1} actual\" (act, "
+                    "measured, encoder, feedback, ist); --with columns= names them in their order",
+                    axes, name),
+        1);
 }
 
 }  // namespace
@@ -199,6 +216,8 @@ std::vector<std::string> log_notes(const TextTable& table, const LogColumns& log
         if (axis.missing > 0)
             notes.push_back(fmt::format("{}: {}: {} rows without a value are left out",
                                         table.path(), axis.name, axis.missing));
+    for (const std::string& name : log.taken_as_actual)
+        notes.push_back(table.path() + ": '" + name + "' taken as the actual position");
     for (const std::string& name : log.unused)
         notes.push_back(table.path() + ": column '" + name + "' is not used");
     return notes;

@@ -37,6 +37,7 @@ std::optional<BlockColumnFound> find_block_column(const TextTable& table);
 struct LogColumns {
     std::vector<AxisColumns> axes;
     std::vector<std::string> unused;
+    std::vector<std::string> taken_as_actual;  ///< "J5 pos" next to "J5 target"
     bool units_assumed = false;
     std::optional<BlockColumnFound> block;
 

@@ -5,6 +5,8 @@
 #include <map>
 #include <set>
 
+#include "imports/columns.h"
+
 namespace trunnion::imports {
 namespace {
 
@@ -70,6 +72,19 @@ bool filler(const std::string& word) {
     return word.empty() || words.contains(word);
 }
 
+/// "ref_pos", "act pos": the position that was read.
+bool is_reading(const std::string& word) {
+    static const std::set<std::string> words{"ref",    "reference", "act",
+                                             "actual", "meas",      "measured"};
+    return words.contains(word);
+}
+
+/// A word beside the former: "ref_pos(i,1)".
+bool is_beside_reading(const std::string& word) {
+    static const std::set<std::string> words{"pos", "position", "i", "j"};
+    return is_reading(word) || words.contains(word);
+}
+
 }  // namespace
 
 int direction_of(std::string word) {
@@ -80,10 +95,14 @@ int direction_of(std::string word) {
 RunName run_name(const std::string& name) {
     RunName result;
     std::string word;
+    const std::vector<std::string> words = words_of(name);
+    // "ref_pos(i,1)" is a position, not "towards positive".
+    const bool reading = std::any_of(words.begin(), words.end(), is_reading);
     const auto finish = [&] {
-        const int direction = direction_of(word);
+        const bool beside = reading && is_beside_reading(lower(word));
+        const int direction = beside ? 0 : direction_of(word);
         if (direction != 0) result.direction = direction;
-        result.other |= direction == 0 && !filler(lower(word));
+        result.other |= direction == 0 && !beside && !filler(lower(word));
         word.clear();
     };
     for (const char c : name + ' ') {

@@ -7,6 +7,7 @@
 
 #include "base/alarm.h"
 #include "base/numbers.h"
+#include "imports/told_direction.h"
 #include "imports/units.h"
 
 namespace trunnion::imports {
@@ -234,19 +235,21 @@ bool TextTable::row_follows(const std::vector<Line>& lines, std::size_t at) cons
 
 /// Takes rows up to a text line, i.e. the end or the head of another table.
 void TextTable::take_rows(const std::vector<Line>& lines, std::size_t begin) {
-    for (end_ = begin; end_ < lines.size(); ++end_) {
-        const Line& line = lines[end_];
-        if (line.text[0] == '#') continue;
-        if (!begins_with_number(line.text) && !(end_ == begin && is_units(line))) {
+    for (std::size_t i = end_ = begin; i < lines.size(); ++i) {
+        const Line& line = lines[i];
+        if (line.text[0] == '#') continue;  // between rows; before the next table part of its head
+        if (!begins_with_number(line.text) && !(i == begin && is_units(line))) {
             const Cells row = cells(line);
             const bool says = line.text.find_first_of(":=") != std::string_view::npos;
             if (!is_data(row, dialect_)) return;
             if (row.size() < columns_.size() &&
-                (says || leads_to_header(lines, end_) || !row_follows(lines, end_)))
+                (says || leads_to_header(lines, i) || !row_follows(lines, i)))
                 return;
         }
         rows_.push_back(line);
+        end_ = i + 1;
     }
+    end_ = lines.size();
 }
 
 /// A line with units only below the names: "s;mm;mm".
@@ -264,7 +267,9 @@ void TextTable::take_units() {
 void TextTable::read_head(const std::vector<Line>& lines, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
         std::string_view text = lines[i].text;
-        while (!text.empty() && one_of(text[0], "#% \"")) text.remove_prefix(1);
+        while (!text.empty() && one_of(text[0], "#%*! \"")) text.remove_prefix(1);
+        if (const auto way = direction_of_heading(std::string(text)))
+            head_["heading direction"] = {*way, lines[i]};
         const std::string cuts = std::string(":=;\t") + (dialect_.separator == ',' ? "," : "");
         const std::size_t cut = text.find_first_of(cuts);
         if (cut == std::string_view::npos) continue;

@@ -107,10 +107,33 @@ std::optional<double> take_zone(std::string_view text) {
     return sign * (3600.0 * *hours + 60.0 * *minutes);
 }
 
+/// The next word between blanks.
+std::string_view take_word(std::string_view& text) {
+    text = records::without_blanks(text);
+    const std::string_view word = text.substr(0, text.find(' '));
+    text.remove_prefix(word.size());
+    return word;
+}
+
+/// The day of "Wed Apr 13 14:00:34 CEST 2022", as `date` of Unix prints it.
+std::optional<double> day_of_unix(std::string_view text) {
+    static constexpr std::string_view months = "JanFebMarAprMayJunJulAugSepOctNovDec";
+    take_word(text);
+    const std::size_t month = months.find(take_word(text).substr(0, 3));
+    std::string_view of_month = take_word(text), clock = take_word(text), year = take_word(text);
+    if (const std::string_view last = take_word(text); !last.empty()) year = last;  // after a zone
+    const auto day_number = whole(of_month, 2), year_number = whole(year, 4);
+    if (month >= months.size() || month % 3 != 0 || !take_clock(clock) || !day_number ||
+        !year_number)
+        return std::nullopt;
+    return day(*year_number, static_cast<int>(month / 3) + 1, *day_number);
+}
+
 }  // namespace
 
 std::optional<std::string> day_in(std::string_view text) {
     text = records::without_blanks(text);
+    if (const auto unix_day = day_of_unix(text)) return day_of(*unix_day);
     const auto date = take_date(text);
     return date ? std::optional(day_of(*date)) : std::nullopt;
 }

@@ -13,7 +13,8 @@ namespace trunnion::imports {
 /// text, an invalid date, and an ambiguous one such as 01/02/2024.
 std::optional<double> seconds_of(std::string_view text);
 
-/// The day at the start of a text, as 2024-03-01; empty when seconds_of() reads none.
+/// The day at the start of a text, as 2024-03-01, also of a Unix date (Wed Apr 13 14:00:34 CEST
+/// 2022); empty for any other text.
 std::optional<std::string> day_in(std::string_view text);
 /// The day of a time in seconds since 1970.
 std::string day_of(double time_s);

@@ -123,9 +123,20 @@ std::string iso230_2_words(const Iso230Figures& f, bool rotary) {
         const double shown = rotary ? deg_from_rad(v) * 3600.0 : um_from_mm(v);
         return std::isnan(v) ? std::string("-") : fmt::format("{:.2f}", shown);
     };
+    const char* const unit = rotary ? "arcsec" : "µm";
+    const auto has = [&](auto count) {
+        return std::any_of(f.targets.begin(), f.targets.end(),
+                           [&](const TargetFigures& t) { return t.*count > 0; });
+    };
+    const bool up = has(&TargetFigures::n_up), down = has(&TargetFigures::n_down);
+    if (up != down)
+        return fmt::format("ISO 230-2, only towards {}: E {}, R {}, A {} {}", up ? '+' : '-',
+                           number(up ? f.systematic_E_up : f.systematic_E_down),
+                           number(up ? f.repeatability_R_up : f.repeatability_R_down),
+                           number(up ? f.accuracy_A_up : f.accuracy_A_down), unit);
     return fmt::format("ISO 230-2: B {} (mean {}), M {}, E {}, R {}, A {} {}", number(f.reversal_B),
                        number(f.mean_reversal), number(f.mean_deviation_M), number(f.systematic_E),
-                       number(f.repeatability_R), number(f.accuracy_A), rotary ? "arcsec" : "µm");
+                       number(f.repeatability_R), number(f.accuracy_A), unit);
 }
 
 std::vector<DeviationPoint> deviation_points(const ReadingTable& table, const std::string& test) {

@@ -43,7 +43,8 @@ struct Iso230Figures {
 /// Source: ISO 230-2:2014, clauses 3.10 to 3.22. Points belong to the same target when their target
 /// values are equal.
 Iso230Figures iso230_2_figures(const std::vector<DeviationPoint>& points);
-/// "B 12.3 um, M 4.0, E 14.1, R 2.0, A 15.9 um"; arcsec for a rotary axis.
+/// "B 12.3 um, M 4.0, E 14.1, R 2.0, A 15.9 um"; arcsec for a rotary axis. With values in one
+/// direction: E, R and A of this direction.
 std::string iso230_2_words(const Iso230Figures& figures, bool rotary);
 
 /// The points of the `linear` and `angle` rows of a test. Targets are positions of the one axis

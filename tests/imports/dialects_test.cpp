@@ -218,3 +218,62 @@ TEST_CASE("numbers that no table of readings may hold are refused where they sta
     import_bench::refuses(setup, log("10000001"), "beyond 1e7", 3);
     import_bench::refuses(setup, log("19999999900"), "beyond 1e7", 3);
 }
+
+TEST_CASE("commas of remarks above a table do not separate its columns", "[imports][dialects]") {
+    const setup::Setup setup = import_bench::setup();
+    const std::string remarks =
+        "! First 3 numbers are latitude (deg,min,sec)\n! The next 3 are UTC date (year, month, "
+        "day)\n! of 8,21,2021, at 5\" of mercury\n! from 8,22,2021, to 9,1,2021\n";
+    const std::string rows = "10.001 30.002 10 30\n20.001 40.002 20 40\n30.001 50.002 30 50\n";
+    const std::vector<std::string> told{"columns=B_act_deg,C_act_deg,B_cmd_deg,C_cmd_deg"};
+    const auto plain =
+        import_bench::read_rows(setup, {imports::ImportKind::axis_log, rows, told, ""});
+    const auto below =
+        import_bench::read_rows(setup, {imports::ImportKind::axis_log, remarks + rows, told, ""});
+    REQUIRE(plain.size() == 6);
+    REQUIRE(below.size() == 6);
+    for (std::size_t k = 0; k < 6; ++k) CHECK(*below[k].value_mm == *plain[k].value_mm);
+}
+
+TEST_CASE("axes with any letter, and positions next to targets", "[imports][dialects]") {
+    std::vector<std::string> notes;
+    const setup::Setup setup = setup::parse_setup(
+        "[machine]\nname = \"m\"\nchain = \"w b R J5 t\"\n"
+        "[machine.axis.R]\ndirection = [0, 0, 1]\npoint_mm = [0, 0, 0]\n"
+        "[machine.axis.J5]\ndirection = [0, 1, 0]\npoint_mm = [0, 0, 0]\n",
+        "s.toml", notes);
+    const auto result = import_bench::imported(
+        setup, {imports::ImportKind::axis_log,
+                "time [s],R_cmd_deg,R_act_deg,J5 target [deg],J5 pos [deg],i_R\n"
+                "0,1,1.5,2,2.25,9\n1,2,2.5,3,3.25,9\n",
+                {},
+                ""});
+    CHECK_THAT(result.readings, Catch::Contains("axis,R,") && Catch::Contains("axis,J5,"));
+    CHECK_THAT(result.readings, Catch::Contains(",,0.5000") && Catch::Contains(",,0.2499"));
+    CHECK(std::count(result.notes.begin(), result.notes.end(),
+                     "dir/f.txt: 'J5 pos' taken as the actual position") == 1);
+    CHECK(std::count(result.notes.begin(), result.notes.end(),
+                     "dir/f.txt: column 'i_R' is not used") == 1);
+    import_bench::refuses(
+        setup, {imports::ImportKind::axis_log, "time [s],R [deg],v\n0,1,1\n1,1,1\n", {}, ""},
+        "\"R commanded\" (cmd, target, ", 1);
+}
+
+TEST_CASE("the date of Unix names the session", "[imports][dialects]") {
+    const setup::Setup setup = import_bench::setup();
+    for (const char* date : {"Wed Apr 13 14:00:34 CEST 2022", "Wed Apr 13 14:00:34 2022"})
+        CHECK(
+            import_bench::read_rows(setup, {imports::ImportKind::axis_log,
+                                            std::string("* Date        : ") + date +
+                                                "\ntime [s],X cmd [mm],X act [mm]\n0,1,1\n1,2,2\n",
+                                            {},
+                                            ""})[0]
+                .session == "2022-04-13");
+    import_bench::refuses(
+        setup,
+        {imports::ImportKind::axis_log,
+         "Date: Wed Apr 31 14:00:34 2022\ntime [s],X cmd [mm],X act [mm]\n0,1,1\n",
+         {},
+         ""},
+        "is no date", 1);
+}
