@@ -196,13 +196,29 @@ std::optional<Contender> with_slope_apart(const Searching& search, const Standin
     return against(rows, chosen, std::move(model));
 }
 
+/// True for a cause of textbook forms alone.
+bool is_textbook(const Design& design, const Model& model, const std::string& cause) {
+    return std::none_of(model.members.begin(), model.members.end(), [&](std::size_t m) {
+        const ColumnGroup& group = design.group(m);
+        return group.name == cause && is_cause(group.kind) && group.kind != GroupKind::textbook;
+    });
+}
+
 /// The best model without a cause; or, of a bow about machine zero, the one that takes its slope
 /// for squareness, if that is more likely.
 Contender contender_of(const Searching& search, const Standing& chosen, FoldColumns& rows,
                        const std::string& cause) {
     const Design& design = search.design;
+    // A driver has nothing in common with a textbook form, but makes one out of another effect: a
+    // spike less what a driver has of it is a backlash. It joins only where a cause has other forms.
+    const bool textbook = is_textbook(design, chosen.model, cause);
+    const auto chosen_too = [&](const ColumnGroup& group) {
+        return std::any_of(chosen.model.members.begin(), chosen.model.members.end(),
+                           [&](std::size_t m) { return &design.group(m) == &group; });
+    };
     Contender best = best_without(search, chosen, rows, [&](const ColumnGroup& group) {
-        return is_cause(group.kind) && group.name == cause;
+        return (is_cause(group.kind) && group.name == cause) ||
+               (textbook && group.kind == GroupKind::driver && !chosen_too(group));
     });
     for (std::size_t k = 0; k < chosen.model.members.size(); ++k) {
         const ColumnGroup& group = design.group(chosen.model.members[k]);

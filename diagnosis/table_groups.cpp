@@ -22,15 +22,12 @@ struct Family {
     int owned;                    ///< number of polynomials, or of harmonics of a turn
     double log_prior = 0.0;       ///< relative to the others
 };
-/// On a single line, which a laser measures, angular errors are what ISO 230-2 calls positioning.
-/// Where both explain all, that name comes first.
-constexpr double by_an_arm = -0.7;  // ln 0.5
 
 /// The bow of a straightness stays in its table, as in that of the angles: seen through one arm
 /// they are the same curve, and one of them must not need a second cause for its bow.
 constexpr Family families[] = {{EffectKind::positioning, false, true, false, false, 40, 24, 2},
                                {EffectKind::straightness, false, false, false, false, 24, 12, 2},
-                               {EffectKind::angular, false, false, true, true, 16, 8, 2, by_an_arm},
+                               {EffectKind::angular, false, false, true, true, 16, 8, 2, rules::by_an_arm},
                                {EffectKind::backlash, false, true, false, false, 24, 12, 1},
                                {EffectKind::positioning, true, true, true, false, 40, 24, 2},
                                {EffectKind::radial, true, false, false, false, 24, 12, 3},

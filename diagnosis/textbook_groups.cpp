@@ -177,6 +177,24 @@ void add_forms(Design& design, const Prepared& prepared, const EffectColumns& re
     for (const Takes& takes : forms) add(takes);
 }
 
+/// Angles seen through one arm are the other errors of the axis, whose names come first.
+void favour_motions_over_angles(Design& design) {
+    constexpr double least_own = 0.01;  // of the squared columns
+    for (std::size_t k = 0; k < design.groups().size(); ++k) {
+        const ColumnGroup& angles = design.group(k);
+        if (angles.effect->kind != effects::EffectKind::angular) continue;
+        std::set<Eigen::Index> others;
+        for (const Design::Entry& entry : design.groups()) {
+            const effects::Effect& other = *entry.group.effect;
+            if (other.kind == effects::EffectKind::squareness ||
+                (other.axis == angles.effect->axis && other.kind != effects::EffectKind::angular))
+                others.insert(entry.group.features.begin(), entry.group.features.end());
+        }
+        if (!others.empty() && design.outside(k, {others.begin(), others.end()}) < least_own)
+            design.favour(k, rules::by_an_arm);
+    }
+}
+
 /// Adds effects without keys, in all forms. Returns the number of features.
 Eigen::Index add_effects(Design& design, const Prepared& prepared, const Whitener& whitener,
                          const Since& since) {
@@ -208,7 +226,9 @@ Eigen::Index add_effects(Design& design, const Prepared& prepared, const Whitene
 
 Eigen::Index add_textbook_groups(Design& design, const Prepared& prepared,
                                  const Whitener& whitener) {
-    return add_effects(design, prepared, whitener, {});
+    const Eigen::Index added = add_effects(design, prepared, whitener, {});
+    favour_motions_over_angles(design);
+    return added;
 }
 
 Eigen::Index add_change_groups(Design& design, const Prepared& prepared, const Whitener& whitener) {

@@ -141,7 +141,9 @@ Judgement judged(FoldColumns& rows, const Prepared& prepared, const Model& model
     auto local = j.interpolates;
     local.flip();
     j.between_places = share_of_tables(sizes, local) <= rules::between_part;
-    j.gap = is_gap(design, model, j, sizes, saving_of(before, after)) || nu2 > noise.most;
+    // More than noise may be whatever nothing that was found predicts: a wandering machine.
+    const bool beyond_noise = std::max(nu2, j.before - j.floor * rank / design.rows()) > noise.most;
+    j.gap = beyond_noise || is_gap(design, model, j, sizes, saving_of(before, after));
     return j;
 }
 

@@ -28,7 +28,8 @@ Effect linear_backlash(const kinematics::AxisGeometry& axis) {
     return {identity_of(axis, EffectKind::backlash),
             "The axis stops half the gap beyond the command in the direction of travel (negative: "
             "short)",
-            "ballscrew nut or thrust bearing worn; negative: a drive that lags",
+            "negative: play behind the motor (nut, thrust bearing, belt), a drive that lags; positive: "
+            "compensation of the backlash set too large",
             "readjust nut and bearing, or correct backlash compensation (on Fanuc parameter 1851, "
             "assumed)",
             "position + gap_mm / 2 * sign of travel (cancels in a found sphere centre)",
@@ -46,6 +47,12 @@ constexpr double law_radius_mm = 100.0;  ///< an angle of the path is expressed 
                                          ///< circle
 constexpr double law_speed_mm_s = 10.0;  ///< a time is expressed as distance at this speed
 constexpr double long_ago_mm = 1e6;      ///< axis at rest: anything that decays has vanished
+
+/// True between moves, where a laser is read: there is no path that turns.
+bool is_at_rest(const AxisSample& sample) {
+    return sample.velocity[Axis::X] == 0.0 && sample.velocity[Axis::Y] == 0.0 &&
+           sample.velocity[Axis::Z] == 0.0;
+}
 
 /// Angle (rad) by which the path direction has turned since the axis was at rest.
 double angle_since_quadrant(Axis axis, const AxisSample& sample) {
@@ -66,8 +73,9 @@ double time_since_reversal(double way_mm, double speed_mm_s) {
 /// Argument of the decay, mm, by law 0 (angle of the path), 1 (distance) or 2 (time).
 double way_of(double law, Axis axis, const AxisSample& sample) {
     const double since_mm = sample.since_reversal[index_of(axis)];
-    if (law == 0.0) return law_radius_mm * angle_since_quadrant(axis, sample);
     if (law == 1.0) return since_mm;
+    if (is_at_rest(sample)) return long_ago_mm;
+    if (law == 0.0) return law_radius_mm * angle_since_quadrant(axis, sample);
     const double speed_mm_s = std::abs(sample.velocity[axis]);
     return speed_mm_s > 0.0 ? law_speed_mm_s * time_since_reversal(since_mm, speed_mm_s)
                             : long_ago_mm;

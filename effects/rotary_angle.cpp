@@ -73,7 +73,8 @@ Effect rotary_backlash(const kinematics::AxisGeometry& axis) {
     return {identity_of(axis, EffectKind::backlash),
             "The axis stops half the gap beyond the command in the direction of travel (negative: "
             "short)",
-            "worn worm gear, loose preload, drive belt; negative: a drive that lags",
+            "negative: play behind the motor (worm gear, preload, belt), a drive that lags; positive: "
+            "compensation of the backlash set too large",
             "readjust the preload, or enter the gap as backlash compensation (on Fanuc parameter "
             "1851, assumed)",
             "angle + gap_rad / 2 * sign of travel",
