@@ -210,7 +210,8 @@ Contender contender_of(const Searching& search, const Standing& chosen, FoldColu
                        const std::string& cause) {
     const Design& design = search.design;
     // A driver has nothing in common with a textbook form, but makes one out of another effect: a
-    // spike less what a driver has of it is a backlash. It joins only where a cause has other forms.
+    // spike less what a driver has of it is a backlash. It joins only where a cause has other
+    // forms.
     const bool textbook = is_textbook(design, chosen.model, cause);
     const auto chosen_too = [&](const ColumnGroup& group) {
         return std::any_of(chosen.model.members.begin(), chosen.model.members.end(),

@@ -97,7 +97,9 @@ class Design {
     void hide(std::size_t group) { groups_[group].hidden = true; }
     void offer_again(std::size_t group) { groups_[group].hidden = false; }
     /// Adds to the log prior of a group.
-    void favour(std::size_t group, double log_prior) { groups_[group].group.log_prior += log_prior; }
+    void favour(std::size_t group, double log_prior) {
+        groups_[group].group.log_prior += log_prior;
+    }
     /// The same as hide(), but it may be named as a rival.
     void keep_as_rival(std::size_t group) {
         groups_[group].hidden = groups_[group].only_rival = true;

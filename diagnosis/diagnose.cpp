@@ -280,22 +280,16 @@ bool straighten(Prepared& p, Searched& s) {
     const setup::Setup setup = setup_with(p, s.design, s.model, solution);
     const std::vector<double> read = p.replay.predict(
         setup.machine, identification::offsets_to(p.replay, setup), effects::active_models(setup));
-    const Eigen::VectorXd fit = p.base.residual_mm - left_mm(p, s.design, s.model, solution);
-    Eigen::VectorXd straight =
-        p.base.measured_mm -
-        Eigen::Map<const Eigen::VectorXd>(read.data(), static_cast<Eigen::Index>(read.size())) +
-        fit;
+    const Eigen::Map<const Eigen::VectorXd> bent(read.data(), p.base.measured_mm.size());
+    Eigen::VectorXd change = p.base.measured_mm - bent - left_mm(p, s.design, s.model, solution);
     // The emulator reads from the first row of a test, the columns of effects do not: only a zero.
-    for (const emulator::ZeroGroup& group : p.replay.zeros()) {
-        const Eigen::VectorXd own = (straight - p.base.residual_mm)(group.rows);
-        for (const std::size_t k : group.rows) straight(static_cast<Eigen::Index>(k)) -= own.mean();
-    }
+    free_zeros(p.replay, p.base.sigma_mm, change);
+    const Eigen::VectorXd straight = p.base.residual_mm + change;
     const auto whitened = [&](const Eigen::VectorXd& v) {
         return v.cwiseQuotient(p.base.sigma_mm).norm();
     };
     // Directions that the readings hardly show may be metres long: no machine is bent like that.
     if (!(whitened(straight) <= most_bent * whitened(p.base.residual_mm))) return false;
-    const Eigen::VectorXd change = straight - p.base.residual_mm;
     if (change.cwiseQuotient(p.base.sigma_mm).cwiseAbs().maxCoeff() < bend_sigma) return false;
     p.base.residual_mm = straight;
     return true;

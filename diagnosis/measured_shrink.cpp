@@ -31,21 +31,13 @@ double total(const std::vector<double>& v) {
 
 /// What is measured beside a prediction, mm; the zero of each test and session of a laser or
 /// autocollimator is free, also in readings that took no part in the fit.
-std::vector<double> left_of(const emulator::Replay& replay, const records::ReadingTable& table,
-                            const std::vector<double>& predicted,
-                            const Eigen::VectorXd& sigma_mm) {
-    std::vector<double> left(predicted.size());
-    for (std::size_t k = 0; k < left.size(); ++k)
-        left[k] = *table.rows[replay.table_row(k)].value_mm - predicted[k];
-    for (const emulator::ZeroGroup& group : replay.zeros()) {
-        double sum = 0.0, weights = 0.0;
-        for (const std::size_t k : group.rows) {
-            const double weight = std::pow(sigma_mm(static_cast<Eigen::Index>(k)), -2);
-            sum += weight * left[k];
-            weights += weight;
-        }
-        for (const std::size_t k : group.rows) left[k] -= sum / weights;
-    }
+Eigen::VectorXd left_of(const emulator::Replay& replay, const records::ReadingTable& table,
+                        const std::vector<double>& predicted, const Eigen::VectorXd& sigma_mm) {
+    Eigen::VectorXd left(static_cast<Eigen::Index>(predicted.size()));
+    for (std::size_t k = 0; k < predicted.size(); ++k)
+        left(static_cast<Eigen::Index>(k)) =
+            *table.rows[replay.table_row(k)].value_mm - predicted[k];
+    free_zeros(replay, sigma_mm, left);
     return left;
 }
 
@@ -63,9 +55,9 @@ SquaredSums sums_of(const Outcome& f, const setup::Setup& setup,
     const emulator::Replay replay(f.prepared.base.setup, table), fitted(setup, table);
     const identification::RowNoise noise =
         identification::row_noise(f.prepared.base.setup, table, replay);
-    const std::vector<double> before =
+    const Eigen::VectorXd before =
         left_of(replay, table, replay.predict(f.prepared.base.models), noise.sigma_mm);
-    const std::vector<double> after =
+    const Eigen::VectorXd after =
         left_of(fitted, table, fitted.predict(effects::active_models(setup)), noise.sigma_mm);
     const std::vector<double> part = noise_left(replay);
     SquaredSums sums;
@@ -74,12 +66,12 @@ SquaredSums sums_of(const Outcome& f, const setup::Setup& setup,
         for (const Eigen::Index i : block.rows) {
             const auto k = static_cast<std::size_t>(i);
             const double scale = f.noise.model.of(block.device).scale;
-            b += std::pow(before[k], 2);
-            a += std::pow(after[k], 2);
+            b += std::pow(before(i), 2);
+            a += std::pow(after(i), 2);
             const double own = f.judgement.floor * std::pow(scale * noise.sigma_mm(i), 2);
             n += part[k] * own;
-            sums.whitened_before += std::pow(before[k], 2) / own;
-            sums.whitened_after += std::pow(after[k], 2) / own;
+            sums.whitened_before += std::pow(before(i), 2) / own;
+            sums.whitened_after += std::pow(after(i), 2) / own;
             sums.freedom += part[k];
         }
         sums.before.push_back(b);

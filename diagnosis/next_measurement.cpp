@@ -153,9 +153,8 @@ struct Present {
 NextMeasurement best_for(const AmbiguousPair& pair, const std::vector<Worked>& list,
                          const Present& present) {
     const auto columns = [&](const ColumnGroup& group) {
-        return whitened(
-            present.whitener,
-            columns_on(present.prepared.replay, present.prepared.base.gradient, group));
+        return whitened(present.whitener,
+                        columns_on(present.prepared.replay, present.prepared.base.gradient, group));
     };
     const ColumnGroup rival_group = with_all_parameters(*pair.rival);
     const Eigen::MatrixXd rival = columns(rival_group);

@@ -151,8 +151,8 @@ DeviceNoise estimate(const emulator::Replay& replay, records::Device device,
 /// session. What differs between sessions may be the machine, not its noise.
 using Key = std::tuple<std::size_t, int, int, int, std::vector<long>, std::vector<int>>;
 
-/// Readings of a laser, autocollimator or encoder are compared one by one, each with the last one at
-/// the same target from the same side (ISO 230-2).
+/// Readings of a laser, autocollimator or encoder are compared one by one, each with the last one
+/// at the same target from the same side (ISO 230-2).
 bool has_single_repeats(records::Device device) {
     return device == records::Device::linear || device == records::Device::angle;
 }

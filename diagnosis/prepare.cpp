@@ -68,6 +68,15 @@ Prepared prepare(const setup::Setup& setup, const records::ReadingTable& table) 
     return Prepared(setup, table);
 }
 
+void free_zeros(const emulator::Replay& replay, const Eigen::VectorXd& sigma_mm,
+                Eigen::VectorXd& left_mm) {
+    for (const emulator::ZeroGroup& group : replay.zeros()) {
+        const Eigen::VectorXd weight = sigma_mm(group.rows).cwiseAbs2().cwiseInverse();
+        const double mean = left_mm(group.rows).dot(weight) / weight.sum();
+        for (const std::size_t k : group.rows) left_mm(static_cast<Eigen::Index>(k)) -= mean;
+    }
+}
+
 void refuse_poor_holdout(const Prepared& prepared, const records::ReadingTable& holdout) {
     const emulator::Replay replay(prepared.base.setup, holdout);
     if (replay.size() == 0) throw InputError("no held-out reading", {holdout.path, 0, 0});

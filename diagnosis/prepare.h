@@ -36,6 +36,11 @@ struct Prepared {
 
 /// Throws InputError for too few readings, or values of another machine.
 Prepared prepare(const setup::Setup& setup, const records::ReadingTable& table);
+/// Subtracts from the readings of each laser or autocollimator test and session their mean,
+/// weighted by sigma: the zero of a test is free.
+void free_zeros(const emulator::Replay& replay, const Eigen::VectorXd& sigma_mm,
+                Eigen::VectorXd& left_mm);
+
 /// Throws InputError for held-out readings that cannot belong to this machine.
 void refuse_poor_holdout(const Prepared& prepared, const records::ReadingTable& holdout);
 

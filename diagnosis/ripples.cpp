@@ -181,8 +181,7 @@ std::optional<std::size_t> add_ripple_or_other(Design& design, const Prepared& p
     const auto added = add_keyed_group(design, prepared, whitener, effect, std::move(keys));
     if (!added || !effect.axis) return added;
     const std::vector<Eigen::Index> others = of_axis(design, effect);
-    if (ripple ? separable(design, *added, others)
-               : design.outside(*added, others) >= least_other)
+    if (ripple ? separable(design, *added, others) : design.outside(*added, others) >= least_other)
         return added;
     design.hide(*added);
     return std::nullopt;

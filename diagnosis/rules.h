@@ -11,8 +11,8 @@ constexpr double gain_prior = -5.521460917862246;     ///< ln 0.004: a wrong gai
                                                       ///< which is calibrated (assumed)
 /// Angular errors that the readings show as positioning, straightness and squareness alone: on one
 /// line these are their names (ISO 230-1).
-constexpr double by_an_arm = -0.7;  // ln 0.5
-constexpr double table_prior = -3.912023005428146;    ///< ln 0.02: free form, driver
+constexpr double by_an_arm = -0.7;                  // ln 0.5
+constexpr double table_prior = -3.912023005428146;  ///< ln 0.02: free form, driver
 
 // A gap is reported when both the evidence and the left-out readings support it.
 constexpr double least_evidence = 3.0;   ///< nats, for the whole model
@@ -29,7 +29,7 @@ constexpr double between_part = 0.2;   ///< maximum part of the gap carried by t
                                        ///< interpolate
 constexpr double between_least = 0.5;  ///< part that a table must predict at left-out positions
 
-constexpr double many_places = 8.0;    ///< ... of fewer with this probability of no accident
+constexpr double many_places = 8.0;  ///< ... of fewer with this probability of no accident
 constexpr double between_sure = 0.8;
 
 constexpr double least_share = 0.05;  ///< of the gap: smaller effects are background ...

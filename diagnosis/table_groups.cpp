@@ -25,14 +25,15 @@ struct Family {
 
 /// The bow of a straightness stays in its table, as in that of the angles: seen through one arm
 /// they are the same curve, and one of them must not need a second cause for its bow.
-constexpr Family families[] = {{EffectKind::positioning, false, true, false, false, 40, 24, 2},
-                               {EffectKind::straightness, false, false, false, false, 24, 12, 2},
-                               {EffectKind::angular, false, false, true, true, 16, 8, 2, rules::by_an_arm},
-                               {EffectKind::backlash, false, true, false, false, 24, 12, 1},
-                               {EffectKind::positioning, true, true, true, false, 40, 24, 2},
-                               {EffectKind::radial, true, false, false, false, 24, 12, 3},
-                               {EffectKind::axial, true, true, false, false, 24, 12, 2},
-                               {EffectKind::tilt, true, false, true, false, 24, 12, 2}};
+constexpr Family families[] = {
+    {EffectKind::positioning, false, true, false, false, 40, 24, 2},
+    {EffectKind::straightness, false, false, false, false, 24, 12, 2},
+    {EffectKind::angular, false, false, true, true, 16, 8, 2, rules::by_an_arm},
+    {EffectKind::backlash, false, true, false, false, 24, 12, 1},
+    {EffectKind::positioning, true, true, true, false, 40, 24, 2},
+    {EffectKind::radial, true, false, false, false, 24, 12, 3},
+    {EffectKind::axial, true, true, false, false, 24, 12, 2},
+    {EffectKind::tilt, true, false, true, false, 24, 12, 2}};
 constexpr double whole_turn_rad = 5.0;  ///< a wider range counts as a whole turn
 constexpr double least_range_mm = 1.0, least_range_rad = 0.05;
 constexpr int last_order = 24;

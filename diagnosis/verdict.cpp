@@ -36,13 +36,14 @@ std::vector<bool> large_zeros(Design& design, const Model& model) {
     });
 }
 
-/// The model with the line free that a table leaves to the textbook form: a table without slope over
-/// all positions would know something of those that are left out.
+/// The model with the line free that a table leaves to the textbook form: a table without slope
+/// over all positions would know something of those that are left out.
 Model with_free_line(const Design& design, Model model, const ColumnGroup& table) {
     constexpr double any_size = 100.0;
     for (std::size_t k = 0; k < design.groups().size(); ++k) {
         const ColumnGroup& line = design.group(k);
-        if (!line.is_line || line.name != table.name || line.table.axis.axis != table.table.axis.axis)
+        if (!line.is_line || line.name != table.name ||
+            line.table.axis.axis != table.table.axis.axis)
             continue;
         model.members.push_back(k);
         model.variances.tau.push_back(any_size);

@@ -80,12 +80,12 @@ bool holds_at_places(const Outcome& f, std::size_t group) {
     const auto axis = index_of(own.table.axis.axis);
     const setup::Setup& setup = f.prepared.base.setup;
     if (own.table.play) return setup.gap[axis].at.empty();
-    return std::all_of(
-        own.table.directions.begin(), own.table.directions.end(), [&](int direction) {
-            return setup.machine.errors.axis[axis]
-                .motion[static_cast<std::size_t>(direction)]
-                .at.empty();
-        });
+    return std::all_of(own.table.directions.begin(), own.table.directions.end(),
+                       [&](int direction) {
+                           return setup.machine.errors.axis[axis]
+                               .motion[static_cast<std::size_t>(direction)]
+                               .at.empty();
+                       });
 }
 
 /// True for what was chosen among many forms, so that it fits what other causes leave, too.
@@ -99,8 +99,9 @@ bool helps(const Saving& saving, double contribution) {
     return saving.t >= least_agreement && saving.sum >= least_part * contribution;
 }
 
-/// For each member: whether it predicts between its positions, or may be written for them alone, and, where its form was searched,
-/// helps on left-out paths. What does not help is dropped one by one, the worst first.
+/// For each member: whether it predicts between its positions, or may be written for them alone,
+/// and, where its form was searched, helps on left-out paths. What does not help is dropped one by
+/// one, the worst first.
 std::vector<bool> predicting_elsewhere(const Outcome& f, const Folds& paths) {
     const std::vector<bool> counts = predicting(f, f.model);
     const Eigen::MatrixXd parts = contributions(f.design, f.model, fit_of(f.design, f.model));
@@ -257,9 +258,9 @@ Written written_setup(const Outcome& f) {
     }
     std::vector<bool> at_places;
     for (const std::size_t m : w.model.members) at_places.push_back(holds_at_places(f, m));
-    w.setup = has_causes(f, w.model) ? setup_with(f.prepared, f.design, w.model,
-                                                  solved(f.design, w.model), at_places)
-                                     : set_up_alone(f);
+    w.setup = has_causes(f, w.model)
+                  ? setup_with(f.prepared, f.design, w.model, solved(f.design, w.model), at_places)
+                  : set_up_alone(f);
     return w;
 }
 

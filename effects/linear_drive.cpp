@@ -25,20 +25,21 @@ Effect linear_cyclic(const kinematics::AxisGeometry& axis) {
 }
 
 Effect linear_backlash(const kinematics::AxisGeometry& axis) {
-    return {identity_of(axis, EffectKind::backlash),
-            "The axis stops half the gap beyond the command in the direction of travel (negative: "
-            "short)",
-            "negative: play behind the motor (nut, thrust bearing, belt), a drive that lags; positive: "
-            "compensation of the backlash set too large",
-            "readjust nut and bearing, or correct backlash compensation (on Fanuc parameter 1851, "
-            "assumed)",
-            "position + gap_mm / 2 * sign of travel (cancels in a found sphere centre)",
-            {{"gap_mm", "mm", 5e-3, -1, {}, true}},
-            [k = axis.axis](const AxisSample& sample, const emulator::Contact&,
-                            std::span<const double> value, kinematics::Perturbation& out) {
-                out.axis[k] += 0.5 * value[0] * sample.travel[index_of(k)];
-            },
-            SeenBy::scale};
+    return {
+        identity_of(axis, EffectKind::backlash),
+        "The axis stops half the gap beyond the command in the direction of travel (negative: "
+        "short)",
+        "negative: play behind the motor (nut, thrust bearing, belt), a drive that lags; positive: "
+        "compensation of the backlash set too large",
+        "readjust nut and bearing, or correct backlash compensation (on Fanuc parameter 1851, "
+        "assumed)",
+        "position + gap_mm / 2 * sign of travel (cancels in a found sphere centre)",
+        {{"gap_mm", "mm", 5e-3, -1, {}, true}},
+        [k = axis.axis](const AxisSample& sample, const emulator::Contact&,
+                        std::span<const double> value, kinematics::Perturbation& out) {
+            out.axis[k] += 0.5 * value[0] * sample.travel[index_of(k)];
+        },
+        SeenBy::scale};
 }
 
 namespace {

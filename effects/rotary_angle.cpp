@@ -70,20 +70,21 @@ Effect rotary_cyclic(const kinematics::AxisGeometry& axis) {
 }
 
 Effect rotary_backlash(const kinematics::AxisGeometry& axis) {
-    return {identity_of(axis, EffectKind::backlash),
-            "The axis stops half the gap beyond the command in the direction of travel (negative: "
-            "short)",
-            "negative: play behind the motor (worm gear, preload, belt), a drive that lags; positive: "
-            "compensation of the backlash set too large",
-            "readjust the preload, or enter the gap as backlash compensation (on Fanuc parameter "
-            "1851, assumed)",
-            "angle + gap_rad / 2 * sign of travel",
-            {{"gap_rad", "rad", 40e-6, -1, {}, true}},
-            [k = axis.axis](const AxisSample& sample, const emulator::Contact&,
-                            std::span<const double> value, kinematics::Perturbation& out) {
-                out.axis[k] += 0.5 * value[0] * sample.travel[index_of(k)];
-            },
-            SeenBy::scale};
+    return {
+        identity_of(axis, EffectKind::backlash),
+        "The axis stops half the gap beyond the command in the direction of travel (negative: "
+        "short)",
+        "negative: play behind the motor (worm gear, preload, belt), a drive that lags; positive: "
+        "compensation of the backlash set too large",
+        "readjust the preload, or enter the gap as backlash compensation (on Fanuc parameter "
+        "1851, assumed)",
+        "angle + gap_rad / 2 * sign of travel",
+        {{"gap_rad", "rad", 40e-6, -1, {}, true}},
+        [k = axis.axis](const AxisSample& sample, const emulator::Contact&,
+                        std::span<const double> value, kinematics::Perturbation& out) {
+            out.axis[k] += 0.5 * value[0] * sample.travel[index_of(k)];
+        },
+        SeenBy::scale};
 }
 
 }  // namespace trunnion::effects

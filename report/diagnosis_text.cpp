@@ -66,14 +66,12 @@ std::string diagnosis_text(const diagnosis::Diagnosis& d) {
     std::string text =
         fmt::format("verdict: {}\n", to_string(d.verdict)) + paragraph(verdict_sentence(d), 0);
     // Below what a gap needs, the rest is no statement: the size of the noise itself is uncertain.
-    const std::string excess = d.verdict == diagnosis::Verdict::no_gap
-                                   ? ""
-                                   : ", excess " + size_words(d, d.excess_um);
-    text += paragraph(
-        fmt::format("{} readings ({} set aside), rms {}, noise {} ({}){}", d.readings, d.outliers,
-                    size_words(d, d.rms_um), size_words(d, d.noise_um), to_string(d.noise.source),
-                    excess),
-        0);
+    const std::string excess =
+        d.verdict == diagnosis::Verdict::no_gap ? "" : ", excess " + size_words(d, d.excess_um);
+    text += paragraph(fmt::format("{} readings ({} set aside), rms {}, noise {} ({}){}", d.readings,
+                                  d.outliers, size_words(d, d.rms_um), size_words(d, d.noise_um),
+                                  to_string(d.noise.source), excess),
+                      0);
     for (const identification::FoundSide& s : d.sides) text += fmt::format("  {}\n", to_string(s));
     if (d.chosen_from > 0) text += fmt::format("  chosen evenly from {} readings\n", d.chosen_from);
     for (const diagnosis::DriverShare& w : d.where) text += fmt::format("  {}\n", w.text);

@@ -62,8 +62,7 @@ records::ReadingTable laser(const Truth& truth, int runs, unsigned seed, double 
     const auto count = static_cast<int>(truth.at_mm.size());
     for (int k = 0; k < 2 * runs * count; ++k) {
         const int in_run = k % (2 * count), side = in_run < count ? 1 : -1;
-        const auto target =
-            static_cast<std::size_t>(side > 0 ? in_run : 2 * count - 1 - in_run);
+        const auto target = static_cast<std::size_t>(side > 0 ? in_run : 2 * count - 1 - in_run);
         records::Reading row;
         row.index = static_cast<int>(table.rows.size());
         row.time_s = 60.0 * row.index;
@@ -181,11 +180,43 @@ TEST_CASE("a bow seen at three targets is a table beside the scale", "[diagnosis
     CHECK(left_mm(d.setup, laser(truth, 10, 9)) < 1.2 * truth.noise_mm);
 }
 
+TEST_CASE("a machine that wanders has a gap, though nothing predicts it", "[diagnosis][stage]") {
+    const Truth still{{-20.0, -10.0, 0.0, 10.0, 20.0}, {0.0, 0.0, 0.0, 0.0, 0.0}, 0.0, 0.0005};
+    for (const unsigned seed : {1u, 2u, 3u}) {
+        records::ReadingTable table = laser(still, 6, seed);
+        std::mt19937_64 engine(seed + 100);
+        std::normal_distribution<double> step_mm(0.0, 0.002);
+        double off_mm = 0.0;
+        for (records::Reading& row : table.rows) {
+            off_mm += step_mm(engine);
+            if (row.value_mm) row.value_mm = *row.value_mm + off_mm;
+        }
+        const diagnosis::Diagnosis d =
+            diagnosis::diagnose(stage("noise_um = { linear = 0.5 }\n"), table);
+        INFO(said(d));
+        CHECK(d.verdict != diagnosis::Verdict::no_gap);
+        for (const diagnosis::Cause& c : d.causes)
+            if (c.effect != "thermal.drift" && c.effect != "unknown") CHECK(c.probability < 0.9);
+    }
+}
+
+TEST_CASE("a spike is not seen by a laser between moves", "[diagnosis][stage]") {
+    const Truth truth{
+        {-200.0, -100.0, 0.0, 100.0, 200.0}, {0.0, 0.0, 0.0, 0.0, 0.0}, 0.008, 0.0004};
+    const diagnosis::Diagnosis d = diagnosis::diagnose(stage(), laser(truth, 5, 6));
+    INFO(said(d));
+    CHECK(d.verdict == diagnosis::Verdict::explained);
+    REQUIRE(d.causes.size() == 1);
+    CHECK(d.causes.front().effect == "X.backlash");
+    CHECK(d.causes.front().rivals.empty());
+}
+
 TEST_CASE("a table without interpolation is written and read again", "[diagnosis][stage]") {
     const Truth truth = rough(5, 2);
     const diagnosis::Diagnosis d = diagnosis::diagnose(stage(), laser(truth, 5, 3));
     std::vector<std::string> notes;
-    const setup::Setup again = setup::parse_setup(setup::format_setup(d.setup), "again.toml", notes);
+    const setup::Setup again =
+        setup::parse_setup(setup::format_setup(d.setup), "again.toml", notes);
     const records::ReadingTable later = laser(truth, 2, 20);
     CHECK(left_mm(again, later) == Approx(left_mm(d.setup, later)).epsilon(1e-9));
     CHECK(setup::format_setup(d.setup).find("interpolation = \"none\"") != std::string::npos);
