@@ -20,7 +20,8 @@ struct Written {
 
 /// The causes that predict left-out readings significantly better than the set-up alone in their
 /// written form: without drivers and large zeros, without tables that fail between their positions
-/// and without searched forms that do not help on whole left-out paths. There, what was found with
+/// (of a laser or autocollimator that read at no others, such a table holds at these alone) and
+/// without searched forms that do not help on whole left-out paths. There, what was found with
 /// tables must leave at most half of the gap, anything else do no harm. If there are none, or if
 /// they remove less than half of the excess on left-out readings: the re-identified setup without
 /// causes.

@@ -65,11 +65,12 @@ std::string gap_words(const diagnosis::Diagnosis& d) {
                        size_words(d, d.noise_um), to_string(d.noise.source));
 }
 
-std::string shrink_words(const diagnosis::HeldOut& h) {
+std::string shrink_words(const diagnosis::Diagnosis& d) {
     return fmt::format(
         "With that in the simulation the gap beyond noise shrinks by {} % ({} to {} %) "
-        "on readings that took no part in the fit.",
-        percent(h.shrink), percent(h.low), percent(h.high));
+        "on readings that took no part in the fit{}.",
+        percent(d.after.shrink), percent(d.after.low), percent(d.after.high),
+        d.between_places ? "" : ", at the measured places");
 }
 
 std::string causes_words(const diagnosis::Diagnosis& d) {
@@ -175,18 +176,18 @@ std::string answer(const diagnosis::Diagnosis& d) {
     switch (d.verdict) {
         case diagnosis::Verdict::explained:
             return size + (is_sure(d) ? "The cause is " : "The cause is uncertain, perhaps ") +
-                   causes + ". " + shrink_words(d.after);
+                   causes + ". " + shrink_words(d);
         case diagnosis::Verdict::ambiguous:
             if (d.causes.size() < 2 && is_rather_a_rival(d))
                 return size + "The cause is hardly " + causes + ", rather one of its rivals (" +
                        fmt::format("{}", fmt::join(d.causes.front().rivals, ", ")) + "). " +
-                       shrink_words(d.after);
+                       shrink_words(d);
             if (d.causes.size() < 2)
                 return size + "The cause is " + causes +
                        ", or another effect that these readings cannot tell from it: see below. " +
-                       shrink_words(d.after);
+                       shrink_words(d);
             return size + "The causes are " + causes + "; these readings cannot tell " +
-                   rivalled(d) + " from its rivals, see below. " + shrink_words(d.after);
+                   rivalled(d) + " from its rivals, see below. " + shrink_words(d);
         case diagnosis::Verdict::partly_explained:
             return size + part + " of it is explained: " + causes +
                    ". The rest has a structure that no known effect explains. ";
