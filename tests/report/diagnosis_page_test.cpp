@@ -82,6 +82,13 @@ TEST_CASE("an improbable cause is not said to be the cause: its rivals are") {
                                               Catch::Contains("rather one of its rivals, or"));
 }
 
+TEST_CASE("the answer says where the gap shrinks") {
+    diagnosis::Diagnosis d = one_cause();
+    CHECK_THAT(report::answer(d), !Catch::Contains("measured places"));
+    d.between_places = false;
+    CHECK_THAT(report::answer(d), Catch::Contains("in the fit, at the measured places."));
+}
+
 TEST_CASE("the page says size, cause, rivals and shrink, and is whole") {
     const std::string page = report::page_html(report::diagnosis_page(one_cause(), "a <b>.csv"));
     for (const char* text :
