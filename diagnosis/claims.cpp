@@ -326,6 +326,9 @@ std::vector<Claim> claims_of(const Searching& search, const Model& model, const 
     const std::vector<Offer> worth = worth_of_members(design, model);
     OffersBeside beside(design, model);
     std::vector<Claim> claims;
+    // Where far more remains than noise may be, sigma is no measure of what is small.
+    const double left = model.variances.nu / std::sqrt(sizes.floor);
+    const double least_rms = rules::least_rms * (left > 2.0 ? left : 1.0);
     double own = 0.0;
     for (std::size_t k = 0; k < model.members.size(); ++k) {
         const ColumnGroup& group = design.group(model.members[k]);
@@ -337,7 +340,7 @@ std::vector<Claim> claims_of(const Searching& search, const Model& model, const 
         claim.own = sizes.square[k] / std::max(1e-12, sizes.whole);
         claim.rms = std::sqrt(sizes.square[k] / std::max(1.0, design.rows()));
         own += claim.own;
-        if (claim.share < rules::least_share && claim.rms < rules::least_rms) continue;
+        if (claim.share < rules::least_share && claim.rms < least_rms) continue;
         const std::vector<Offer> others = beside.without(k);
         std::vector<Offer> instead = others;
         for (Offer& o : beside.only_rivals(k)) instead.push_back(std::move(o));

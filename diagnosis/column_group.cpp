@@ -15,6 +15,11 @@ bool are_kindred(const TableForm& a, const TableForm& b) {
     return a.axis.axis == b.axis.axis && (a.play == nullptr) == (b.play == nullptr);
 }
 
+bool ColumnGroup::has_parts() const {
+    return std::any_of(parameters.begin(), parameters.end(),
+                       [&](std::size_t j) { return effect->parameters[j].is_part; });
+}
+
 bool has_keys(const effects::Effect& effect) {
     return std::any_of(effect.parameters.begin(), effect.parameters.end(),
                        [](const effects::EffectParameter& p) { return p.is_key(); });

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "base/units.h"
+#include "diagnosis/offers.h"
 #include "diagnosis/rules.h"
 #include "diagnosis/verdict.h"
 
@@ -204,6 +205,31 @@ bool is_textbook(const Design& design, const Model& model, const std::string& ca
     });
 }
 
+bool is_jump(const Design& design, std::size_t group) {
+    return design.group(group).machine_jump;
+}
+
+/// The best model with a jump in place of a member, and with what it needs beside it: what was
+/// found beside the member fits that one.
+Contender best_with_jump(const Searching& search, const Standing& chosen, FoldColumns& rows,
+                         std::size_t position) {
+    Design& design = search.design;
+    const std::string cause = cause_of_member(design, chosen.model, position);
+    const std::vector<Offer> rivals = OffersBeside(design, chosen.model).only_rivals(position);
+    const auto jump =
+        std::max_element(rivals.begin(), rivals.end(), [&](const Offer& a, const Offer& b) {
+            return std::pair(is_jump(design, a.group), a.value) <
+                   std::pair(is_jump(design, b.group), b.value);
+        });
+    if (jump == rivals.end() || !is_jump(design, jump->group)) return {};
+    const Withheld withheld(design, [&](const ColumnGroup& group) {
+        return is_cause(group.kind) && group.name == cause;
+    });
+    Model model = with(without(chosen.model, position), *jump);
+    model = settled(design, search.setting, tuned(design, search.setting, std::move(model), 2));
+    return against(rows, chosen, std::move(model));
+}
+
 /// The best model without a cause; or, of a bow about machine zero, the one that takes its slope
 /// for squareness, if that is more likely.
 Contender contender_of(const Searching& search, const Standing& chosen, FoldColumns& rows,
@@ -223,6 +249,11 @@ Contender contender_of(const Searching& search, const Standing& chosen, FoldColu
     });
     for (std::size_t k = 0; k < chosen.model.members.size(); ++k) {
         const ColumnGroup& group = design.group(chosen.model.members[k]);
+        if (group.name == cause && group.effect &&
+            group.effect->kind == effects::EffectKind::thermal_drift) {
+            Contender jump = best_with_jump(search, chosen, rows, k);
+            if (jump.ahead > best.ahead) best = std::move(jump);
+        }
         if (group.name != cause || group.kind != GroupKind::textbook || group.shape.size() > 0 ||
             group.effect->kind != effects::EffectKind::straightness)
             continue;
@@ -281,8 +312,12 @@ struct Successor {
 std::optional<Successor> successor(const Searching& search, const Standing& chosen,
                                    FoldColumns& rows, const Contender& contender) {
     const std::size_t most = std::max(search.setting.most_members, chosen.model.members.size());
+    const std::vector<std::size_t>& members = contender.model.members;
+    // A jump is no cause: no setup can contain it.
+    const bool jumps = std::any_of(members.begin(), members.end(),
+                                   [&](std::size_t m) { return is_jump(search.design, m); });
     if (contender.ahead < better || contender.predicted >= contender.spread ||
-        contender.model.members.size() > most)
+        members.size() > most || jumps)
         return std::nullopt;
     Model model =
         exchanged(search, rows, without_idle_members(rows, search.setting, contender.model));

@@ -109,7 +109,7 @@ std::vector<KeyedEffect> promising(const Prepared& p, KeySearch& keys,
                                    const KeySearch::Remainder& left, int count) {
     std::vector<KeyedEffect> list;
     for (const effects::Effect& effect : p.catalogue) {
-        if (modelled(p, effect) || !has_keys(effect)) continue;
+        if (!has_keys(effect) || !is_searched(p, effect)) continue;
         for (auto& setting : keys.best(effect, left, count))
             list.push_back({&effect, std::move(setting)});
     }
@@ -365,8 +365,8 @@ Diagnosis diagnose(const setup::Setup& setup, const records::ReadingTable& table
     Prepared p = prepare(setup, table);
     if (options.holdout) refuse_poor_holdout(p, *options.holdout);
     if (options.over_sessions) refuse_one_session(p);
-    Round round{
-        std::vector<bool>(p.replay.size(), true), {}, p.base.sigma_mm, options.over_sessions};
+    const std::vector<bool> all(p.replay.size(), true);
+    Round round{all, {}, p.base.sigma_mm, options.over_sessions};
     round.noise = belief_of(p, p.base.residual_mm, round.sigma_mm);
     leave_out(p, lone_probe_readings(p, round.used), round);
     take_promising_sides(p);
@@ -391,7 +391,7 @@ Diagnosis diagnose(const setup::Setup& setup, const records::ReadingTable& table
     const Judgement judgement = judged(rows, p, found.model, round.noise);
     Diagnosis d = report_of(
         {p, s.design, s.setting, found.model, judgement, round.noise, round.used, found}, options);
-    d.unfinished = found.ended;  // ended later, only the next measurement is missing
+    d.unfinished = found.ended;  // else only the next measurement may be missing
     if (const auto gap = store_gap(setup, table)) add_store_gap(setup, *gap, options.holdout, d);
     return d;
 }

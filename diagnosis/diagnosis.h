@@ -89,8 +89,10 @@ struct Diagnosis {
     Finite explained = 0.0;      ///< H of the readings left out, 0..1: it decides the verdict
     bool between_places = true;  ///< false: it holds at the measured places only
     std::vector<identification::FitParameter> set_up;  ///< nuisances: never causes
-    std::vector<identification::FoundSide> sides;      ///< likewise: what the table leaves open
+    std::vector<std::string> set_up_words;         ///< poses of instruments and zeros of encoders
+    std::vector<identification::FoundSide> sides;  ///< likewise: what the table leaves open
     HeldOut after;
+    bool writes_causes = true;  ///< false: none of the causes stands in `setup`
     std::vector<NextMeasurement> next;
     std::vector<std::string> unseen;  ///< effects that these readings do not determine
     std::vector<identification::Inseparable>

@@ -10,9 +10,9 @@
 #include "diagnosis/next_measurement.h"
 #include "diagnosis/offers.h"
 #include "diagnosis/rules.h"
+#include "diagnosis/set_up_report.h"
 #include "diagnosis/shrink_interval.h"
 #include "diagnosis/solution.h"
-#include "diagnosis/usual_zero.h"
 #include "diagnosis/written_setup.h"
 #include "estimation/distributions.h"
 
@@ -123,25 +123,6 @@ DrawSetting draw_setting(const Outcome& f, const Written& written, std::uint64_t
             seed};
 }
 
-/// How far the zeros of single tests scatter, where that is noise and no place of the gap.
-std::vector<identification::FitParameter> zero_scatter_of(const Outcome& f) {
-    std::vector<identification::FitParameter> list;
-    for (std::size_t k = 0; k < f.model.members.size(); ++k) {
-        const ColumnGroup& group = f.design.group(f.model.members[k]);
-        if (group.kind != GroupKind::offset || f.judgement.large[k]) continue;
-        identification::FitParameter p;
-        p.effect = "setup";
-        p.of_set_up = true;
-        p.name = "scatter of the " + group.name;
-        p.unit = "mm";
-        p.value = usual_zero_mm * f.model.variances.tau[k];
-        p.sigma =
-            p.value / std::sqrt(2.0 * std::max<double>(1.0, static_cast<double>(group.columns())));
-        list.push_back(p);
-    }
-    return list;
-}
-
 void describe_size(const Outcome& f, const Solution& solution, Diagnosis& d) {
     const identification::BaseModel& base = f.prepared.base;
     d.readings = f.prepared.replay.size();
@@ -171,9 +152,6 @@ void describe_size(const Outcome& f, const Solution& solution, Diagnosis& d) {
         d.after_um.push_back(micro * left(i));
     }
     d.inseparable = base.inseparable;
-    for (const identification::FitParameter& p : base.parameters)
-        if (p.of_set_up) d.set_up.push_back(p);
-    for (identification::FitParameter& p : zero_scatter_of(f)) d.set_up.push_back(std::move(p));
     d.sides = f.prepared.sides;
     d.notes = base.notes;
     for (const auto& entry : f.design.groups()) {
@@ -361,6 +339,9 @@ Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options) {
     d.between_places = f.judgement.between_places;
     if (f.judgement.part <= 0.0) written = written_setup(f);
     d.setup = written.setup;
+    d.writes_causes = std::any_of(written.model.members.begin(), written.model.members.end(),
+                                  [&](std::size_t m) { return is_cause(f.design.group(m).kind); });
+    describe_set_up(f, solution, d);
     if (!f.judgement.gap) {
         d.after_rms_um = d.rms_um;
         d.after_um = d.before_um;

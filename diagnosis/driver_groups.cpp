@@ -209,6 +209,20 @@ class DriverList {
         }
     }
 
+    /// True when an axis went one way only, never back.
+    bool is_one_sweep() const {
+        return std::any_of(table_.axes.begin(), table_.axes.end(), [this](Axis axis) {
+            bool up = false, down = false;
+            for (std::size_t i = 1; i < n(); ++i) {
+                const double step =
+                    replay_.sample(i).position[axis] - replay_.sample(i - 1).position[axis];
+                up = up || step > 0.0;
+                down = down || step < 0.0;
+            }
+            return up != down;
+        });
+    }
+
     void clocks() {
         double start = 1e300, end = -1e300, cold = 1e300, warm = -1e300;
         for (std::size_t i = 0; i < n(); ++i) {
@@ -218,12 +232,18 @@ class DriverList {
             warm = std::max(warm, replay_.sample(i).temperature_c);
         }
         const RowFunction t = [this](std::size_t i) { return replay_.sample(i).time_s; };
-        if (end - start > 60.0) {
+        // Without a clock, in one sweep, the order of the readings is the position of the axis.
+        const bool told = records::has_times(table_);
+        if (end - start > 60.0 && (told || !is_one_sweep())) {
             auto functions = smooth(t, start, end, false, 6);
-            add("time", "machine frame", "drifts with time", functions, machine_axes());
+            add("time", "machine frame",
+                told ? "drifts with time" : "changes in the order of the readings", functions,
+                machine_axes());
             drivers_.back().of_time = true;
-            add("time", "table frame", "moves with the table at some moment", functions,
-                table_axes());
+            add("time", "table frame",
+                told ? "moves with the table at some moment"
+                     : "moves with the table at some reading",
+                functions, table_axes());
             drivers_.back().of_time = true;
         }
         if (warm - cold < 0.3) return;

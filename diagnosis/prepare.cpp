@@ -107,4 +107,9 @@ bool modelled(const Prepared& prepared, const effects::Effect& effect) {
     return std::find(names.begin(), names.end(), effect.name) != names.end();
 }
 
+bool is_searched(const Prepared& prepared, const effects::Effect& effect) {
+    const bool drift = effect.kind == effects::EffectKind::thermal_drift;
+    return !modelled(prepared, effect) && (!drift || records::has_times(prepared.table));
+}
+
 }  // namespace trunnion::diagnosis

@@ -12,6 +12,8 @@ namespace {
 constexpr std::size_t tried = 4;       ///< number of best offers tuned at each step
 constexpr double certain = 30.0;       ///< worth of a member that is not questioned, nats
 constexpr std::size_t swap_tried = 3;  ///< offers tried in place of a member
+constexpr double impossible = 1e9;     ///< taken from the score of a model with a parameter out of
+                                       ///< its range
 constexpr double tuning_gain = 10.0;   ///< maximum gain by tuning the variances of a changed model,
                                        ///< nats
 
@@ -201,12 +203,36 @@ Model empty_model(Design& design, const SearchSetting& setting) {
     return tuned(design, setting, {{}, {{}, std::exp(setting.noise.log_mean)}, 0.0}, 1);
 }
 
+namespace {
+
+/// True where the fit gives a parameter a size that it cannot have: no control rounds its positions
+/// by 500 times the increment, whatever this explains.
+bool is_impossible(Design& design, const Model& model) {
+    constexpr double beyond = 0.5;  // of the range: noise may lead out of it
+    for (std::size_t k = 0; k < model.members.size(); ++k) {
+        const ColumnGroup& group = design.group(model.members[k]);
+        if (!group.has_parts()) continue;
+        const Fit fit = fit_of(design, model);
+        const Eigen::VectorXd value =
+            group.feature_values(fit.mean.segment(fit.first[k], fit.size[k]));
+        for (std::size_t j = 0; j < group.parameters.size(); ++j) {
+            const effects::EffectParameter& p = group.effect->parameters[group.parameters[j]];
+            const double part = p.typical * value(static_cast<Eigen::Index>(j));
+            if (p.is_part && (part < -beyond || part > 1.0 + beyond)) return true;
+        }
+    }
+    return false;
+}
+
+}  // namespace
+
 Model tuned(Design& design, const SearchSetting& setting, Model model, int sweeps) {
     estimation::BestVariances best = estimation::maximise_likelihood(
         design.equations(model.members), std::move(model.variances), setting.noise, sweeps);
     model.variances = std::move(best.variances);
     model.score = best.likelihood - setting.empty;
     for (const std::size_t m : model.members) model.score += design.group(m).log_prior;
+    if (is_impossible(design, model)) model.score -= impossible;
     return model;
 }
 

@@ -66,6 +66,35 @@ void add_free_form(setup::Setup& setup, const ColumnGroup& group,
     }
 }
 
+/// Harmonics and slope of the angle of a rotary axis as an error motion, which acts about + axes of
+/// M: `values` of the textbook effect, which acts about the direction of the axis.
+void add_angle(setup::Setup& setup, const kinematics::AxisGeometry& axis,
+               const std::vector<double>& values) {
+    const int along = effects::main_direction(axis);
+    kinematics::ErrorCurve& curve =
+        setup.machine.errors.axis[index_of(axis.axis)].motion[static_cast<std::size_t>(3 + along)];
+    const double sign = axis.direction(along) > 0.0 ? 1.0 : -1.0;
+    for (std::size_t n = 0; 2 * n + 1 < values.size(); ++n) {
+        kinematics::ErrorCurve::Harmonic& h = harmonic_of(curve, static_cast<double>(n + 1));
+        h.cosine += sign * values[2 * n];
+        h.sine += sign * values[2 * n + 1];
+    }
+    if (values.size() % 2 == 1) curve.slope += sign * values.back();
+}
+
+/// True for the textbook positioning of a rotary axis beside its table. An effect moves the axis,
+/// and a table is that of where it stands: in one curve large errors add up, as they were fitted.
+bool joins_table(const Design& design, const Model& model, const ColumnGroup& group) {
+    if (group.effect->kind != effects::EffectKind::positioning) return false;
+    return std::any_of(model.members.begin(), model.members.end(), [&](std::size_t m) {
+        const TableForm& table = design.group(m).table;
+        return design.group(m).kind == GroupKind::table &&
+               table.motion == effects::EffectKind::positioning &&
+               table.axis.axis == group.effect->axis &&
+               std::abs(table.axis.direction(effects::main_direction(table.axis))) > 1.0 - 1e-12;
+    });
+}
+
 }  // namespace
 
 Eigen::VectorXd Solution::spread(const Eigen::VectorXd& z) const {
@@ -159,6 +188,8 @@ setup::Setup setup_with(const Prepared& prepared, const Design& design, const Mo
         const Eigen::VectorXd own = solution.mean.segment(solution.first[k], solution.size[k]);
         if (group.kind == GroupKind::table)
             add_free_form(setup, group, own, !at_places.empty() && at_places[k]);
+        else if (group.effect && joins_table(design, model, group))
+            add_angle(setup, *setup.machine.chain.find(*group.effect->axis), values_in(group, own));
         else if (group.effect)
             identification::add_effect(setup, *group.effect, values_in(group, own));
     }

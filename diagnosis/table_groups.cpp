@@ -64,15 +64,27 @@ Eigen::MatrixXd for_each_direction(const Eigen::MatrixXd& shape, std::size_t dir
     return all;
 }
 
-/// The textbook form at the knots: polynomials, or harmonics of part of a turn.
-Eigen::MatrixXd owned_at(const Family& family, const std::vector<double>& knots) {
+/// True where the textbook effect of a rotary axis has a slope: positioning, if the setup limits
+/// the travel to less than a turn.
+bool has_slope(const Prepared& p, const Family& family, Axis axis) {
+    const effects::Effect* effect = effects::find_effect(p.catalogue, family.motion, axis);
+    return effect && std::any_of(effect->parameters.begin(), effect->parameters.end(),
+                                 [](const auto& q) { return q.name == "slope_rad_per_rad"; });
+}
+
+/// The textbook form at the knots: polynomials, or harmonics of part of a turn. A slope that the
+/// textbook form lacks stays in the table.
+Eigen::MatrixXd owned_at(const Prepared& p, const Family& family, const TableForm& table) {
+    const std::vector<double>& knots = table.knots;
     if (!family.rotary) return estimation::polynomials_at(knots, family.owned);
-    Eigen::MatrixXd owned(static_cast<Eigen::Index>(knots.size()), 2 + 2 * family.owned);
-    owned.leftCols(2) = estimation::polynomials_at(knots, 2);
+    const int powers = has_slope(p, family, table.axis.axis) ? 2 : 1;
+    Eigen::MatrixXd owned(static_cast<Eigen::Index>(knots.size()), powers + 2 * family.owned);
+    owned.leftCols(powers) = estimation::polynomials_at(knots, powers);
     for (std::size_t k = 0; k < knots.size(); ++k)
         for (int n = 1; n <= family.owned; ++n) {
-            owned(static_cast<Eigen::Index>(k), 2 * n) = std::cos(n * knots[k]);
-            owned(static_cast<Eigen::Index>(k), 2 * n + 1) = std::sin(n * knots[k]);
+            const Eigen::Index at = powers + 2 * (n - 1);
+            owned(static_cast<Eigen::Index>(k), at) = std::cos(n * knots[k]);
+            owned(static_cast<Eigen::Index>(k), at + 1) = std::sin(n * knots[k]);
         }
     return owned;
 }
@@ -83,11 +95,12 @@ struct Shape {
     double log_prior = 0.0;
 };
 
-std::vector<Shape> shapes_at_knots(const Family& family, const std::vector<double>& knots) {
+/// `owned`: the textbook form at the knots.
+std::vector<Shape> shapes_at_knots(const Family& family, const std::vector<double>& knots,
+                                   const Eigen::MatrixXd& owned) {
     std::vector<Shape> shapes;
     for (const double length : estimation::correlation_lengths(knots))
-        shapes.push_back(
-            {estimation::smooth_shapes(knots, length, owned_at(family, knots), family.shapes)});
+        shapes.push_back({estimation::smooth_shapes(knots, length, owned, family.shapes)});
     std::erase_if(shapes, [](const Shape& s) { return s.columns.cols() == 0; });
     for (Shape& s : shapes) s.log_prior = -std::log(static_cast<double>(shapes.size()));
     return shapes;
@@ -111,10 +124,6 @@ std::vector<Shape> shapes_of_turn(const TableForm& table) {
             {Eigen::MatrixXd::Identity(2 * table.orders, 2 * table.orders).middleCols(2 * n, 2),
              -std::log(2.0 * singles)});
     return shapes;
-}
-
-std::vector<Shape> shapes_of(const Family& family, const TableForm& table) {
-    return table.knots.empty() ? shapes_of_turn(table) : shapes_at_knots(family, table.knots);
 }
 
 /// True when the readings see the play from both sides on most of the range; elsewhere it cannot
@@ -160,7 +169,10 @@ void add_family(Design& design, const Prepared& p, const Whitener& whitener, con
         table.play = effects::find_effect(p.catalogue, family.motion, axis.axis);
         if (!table.play || !sees_both_sides(p, table)) return;
     }
-    const std::vector<Shape> shapes = shapes_of(family, table);
+    const Eigen::MatrixXd owned =
+        table.knots.empty() ? Eigen::MatrixXd() : owned_at(p, family, table);
+    const std::vector<Shape> shapes =
+        table.knots.empty() ? shapes_of_turn(table) : shapes_at_knots(family, table.knots, owned);
     if (shapes.empty()) return;
     Eigen::MatrixXd white = table_features(p.replay, p.base.gradient, table);
     whitener.apply(white);
@@ -180,7 +192,7 @@ void add_family(Design& design, const Prepared& p, const Whitener& whitener, con
         design.add(std::move(group));
     }
     if (table.knots.empty()) return;
-    ColumnGroup line = group_of(owned_at(family, table.knots));
+    ColumnGroup line = group_of(owned);
     line.is_line = true;
     line.component = "line";  // so that it is no other form of the table
     design.hide(design.add(std::move(line)));

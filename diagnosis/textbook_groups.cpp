@@ -5,6 +5,7 @@
 #include <numeric>
 #include <set>
 
+#include "base/units.h"
 #include "diagnosis/candidate_groups.h"
 #include "diagnosis/rules.h"
 #include "effects/polynomials.h"
@@ -154,11 +155,26 @@ void take_bow_from_mean_line(const Prepared& p, ColumnGroup& group) {
         group.shape.col(static_cast<Eigen::Index>(k)) = columns[k];
 }
 
+/// True when a rotary axis was read over less than half a turn, where harmonics look alike.
+bool is_part_of_turn(const Prepared& p, const effects::Effect& effect) {
+    if (!effect.axis) return false;
+    double low = 1e300, high = -1e300;
+    for (std::size_t i = 0; i < p.replay.size(); ++i) {
+        low = std::min(low, p.replay.sample(i).position[*effect.axis]);
+        high = std::max(high, p.replay.sample(i).position[*effect.axis]);
+    }
+    return high - low < pi;
+}
+
 /// Adds all forms of an effect whose columns are in the design.
 void add_forms(Design& design, const Prepared& prepared, const EffectColumns& ready,
                const Since& since, double log_prior) {
-    const auto forms = simpler_forms(*ready.effect);
+    auto forms = simpler_forms(*ready.effect);
     const auto& parameters = ready.effect->parameters;
+    const auto second = [](const effects::EffectParameter& q) { return q.order > 1; };
+    if (std::any_of(parameters.begin(), parameters.end(), second) &&
+        is_part_of_turn(prepared, *ready.effect))
+        forms.push_back(std::not_fn(second));
     const bool has_mean_line =
         since.before.empty() &&
         std::any_of(parameters.begin(), parameters.end(),

@@ -86,6 +86,28 @@ double share_of_tables(const Sizes& sizes, const std::vector<bool>& those) {
     return sum;
 }
 
+/// Evidence of a model beyond that of the zeros of tests alone, whose scatter is noise. A drift
+/// over few tests is such a scatter as well.
+double evidence_beside_zeros(Design& design, const Model& model,
+                             const estimation::NoisePrior& prior) {
+    constexpr double usual_tau = 0.1;
+    const SearchSetting setting = search_setting(design, prior);
+    std::vector<Model> some{empty_model(design, setting)};
+    double best = 0.0;
+    for (std::size_t k = 0; k < design.groups().size(); ++k) {
+        if (design.group(k).kind != GroupKind::offset || !design.groups()[k].visible()) continue;
+        const std::size_t without_it = some.size();
+        for (std::size_t m = 0; m < without_it; ++m) {
+            Model with_it = some[m];
+            with_it.members.push_back(k);
+            with_it.variances.tau.push_back(usual_tau);
+            some.push_back(tuned(design, setting, std::move(with_it), 3));
+            best = std::max(best, evidence(design, some.back()));
+        }
+    }
+    return evidence(design, model) - best;
+}
+
 /// True when there is more than noise. Without a driver the evidence must be confirmed by left-out
 /// readings.
 bool is_gap(Design& design, const Model& model, const Judgement& j, const Sizes& sizes,
@@ -94,10 +116,9 @@ bool is_gap(Design& design, const Model& model, const Judgement& j, const Sizes&
     double driver = 0.0;
     for (std::size_t k = 0; k < model.members.size(); ++k)
         if (kind_of(design, model, k) == GroupKind::driver) driver += sizes.square[k];
-    const double nats = evidence(design, model);
-    if (nats < rules::least_evidence) return false;
+    if (j.evidence < rules::least_evidence) return false;
     if (driver > rules::least_driver * j.floor * design.rows()) return true;
-    if (saving.t < rules::least_t && nats < rules::plain_evidence) return false;
+    if (saving.t < rules::least_t && j.evidence < rules::plain_evidence) return false;
     return j.before - j.after >= rules::least_saving * j.floor;
 }
 
@@ -111,6 +132,7 @@ Judgement judged(FoldColumns& rows, const Prepared& prepared, const Model& model
     const double nu2 = model.variances.nu * model.variances.nu;
     j.floor = noise.model.source == NoiseSource::repeats ? 1.0 : std::min(nu2, noise.most);
     j.large = large_zeros(design, model);
+    j.evidence = evidence_beside_zeros(design, model, noise.prior);
     const LeftOut left(rows, model);
     const std::vector<bool> all(model.members.size(), true);
     const auto zeros = marked(design, model, [&](GroupKind kind, std::size_t k) {

@@ -6,6 +6,7 @@
 #include "diagnosis/outliers.h"
 #include "diagnosis/rules.h"
 #include "diagnosis/solution.h"
+#include "effects/settings.h"
 #include "estimation/free_form.h"
 #include "estimation/ranked_least_squares.h"
 
@@ -61,9 +62,9 @@ bool has_tables(const Outcome& f, const Model& model) {
                        [&](std::size_t m) { return f.design.group(m).kind == GroupKind::table; });
 }
 
-/// True for a table of a laser, autocollimator or encoder that holds at its positions alone. These
-/// are all the positions that were read, so left-out readings at the same positions confirm it; it
-/// is written for them only.
+/// True for a table of a laser, autocollimator, tracker or CMM that holds at its positions alone.
+/// These are all the positions that were read, so left-out readings at the same positions confirm
+/// it; it is written for them only.
 bool holds_at_places(const Outcome& f, std::size_t group) {
     const ColumnGroup& own = f.design.group(group);
     if (own.kind != GroupKind::table || own.table.knots.empty() ||
@@ -71,7 +72,8 @@ bool holds_at_places(const Outcome& f, std::size_t group) {
         return false;
     for (std::size_t i = 0; i < f.prepared.replay.size(); ++i) {
         const emulator::Contact& contact = f.prepared.replay.contact(i);
-        if (contact.device != records::Device::linear && contact.device != records::Device::angle)
+        if (contact.device != records::Device::linear && contact.device != records::Device::angle &&
+            contact.device != records::Device::point)
             return false;
         const double q = f.prepared.replay.sample(i).position[own.table.axis.axis];
         const auto [knot, weight] = estimation::place_between(own.table.knots, q);
@@ -238,29 +240,65 @@ setup::Setup set_up_alone(const Outcome& f) {
     return setup_with(f.prepared, f.design, none, solution);
 }
 
+setup::Setup setup_of(const Outcome& f, const Model& model) {
+    std::vector<bool> at_places;
+    for (const std::size_t m : model.members) at_places.push_back(holds_at_places(f, m));
+    return has_causes(f, model)
+               ? setup_with(f.prepared, f.design, model, solved(f.design, model), at_places)
+               : set_up_alone(f);
+}
+
+/// False where the causes of a model, read by the emulator, leave more than none: errors of degrees
+/// or millimetres are not linear. `setup`: with the model, for all sessions alike.
+bool holds_when_read(const Outcome& f, const Model& model, const setup::Setup& setup) {
+    const Prepared& p = f.prepared;
+    const Solution solution = solved(f.design, model);
+    const std::vector<double> read = p.replay.predict(
+        setup.machine, identification::offsets_to(p.replay, setup), effects::active_models(setup));
+    const Eigen::Map<const Eigen::VectorXd> bent(read.data(), p.base.measured_mm.size());
+    Eigen::VectorXd bend = p.base.measured_mm - bent - left_mm(p, f.design, model, solution);
+    free_zeros(p.replay, p.base.sigma_mm, bend);
+    Eigen::VectorXd left = f.design.data() - f.design.known() * solution.mean.head(solution.known);
+    for (std::size_t k = 0; k < model.members.size(); ++k)
+        if (is_cause(f.design.group(model.members[k]).kind))
+            left -= f.design.combined(model.members[k],
+                                      solution.mean.segment(solution.first[k], solution.size[k]));
+    left.head(bend.size()) += bend.cwiseQuotient(p.base.sigma_mm);
+    return left.squaredNorm() < f.design.projection().beside(f.design.data()).squaredNorm();
+}
+
+bool has_changes(const Outcome& f, const Model& model) {
+    return std::any_of(model.members.begin(), model.members.end(),
+                       [&](std::size_t m) { return f.design.group(m).is_change(); });
+}
+
 }  // namespace
 
 Written written_setup(const Outcome& f) {
     Written w;
     w.model = {{}, {{}, f.model.variances.nu}, 0.0};
+    const Model none = without_causes(f);
     if (f.judgement.gap && f.judgement.part > 0.0) {
-        const Model none = without_causes(f);
         const Folds paths = path_folds(f.prepared.blocks, f.prepared.replay, f.prepared.table.axes);
         w.model = none;
         choose(f, paths, w);
-        // A cause is no more likely than this part: rather not there, it is not written.
-        if (w.part < rules::partly) w.model = none;
+        // A cause is no more likely than this part: rather not there, it is not written. Where the
+        // rest holds at the measured places only, the part without it says nothing of a cause.
+        if (w.part < rules::partly && f.judgement.between_places && !w.only_here) w.model = none;
+        w.setup = setup_of(f, w.model);
+        if (has_causes(f, w.model) && !has_changes(f, w.model) &&
+            !holds_when_read(f, w.model, w.setup)) {
+            w.model = none;
+            w.part = 0.0;
+            w.setup = set_up_alone(f);
+        }
         w.blocks = {f.judgement.left_before, residual_of(f, w.model, f.prepared.folds)};
         w.paths = {residual_of(f, none, paths), residual_of(f, w.model, paths)};
     } else {
+        w.setup = set_up_alone(f);
         w.blocks = {f.judgement.left_before, f.judgement.left_before};
         w.paths = w.blocks;
     }
-    std::vector<bool> at_places;
-    for (const std::size_t m : w.model.members) at_places.push_back(holds_at_places(f, m));
-    w.setup = has_causes(f, w.model)
-                  ? setup_with(f.prepared, f.design, w.model, solved(f.design, w.model), at_places)
-                  : set_up_alone(f);
     return w;
 }
 

@@ -28,6 +28,12 @@ PathTurn turn_of(const AxisSample& sample) {
     return turn;
 }
 
+EffectParameter fraction() {
+    EffectParameter part{"fraction", "1", 1.0};
+    part.is_part = true;
+    return part;
+}
+
 std::vector<double> block_lengths() {
     std::vector<double> grid;
     for (int k = 4; k <= 120; ++k) grid.push_back(0.05 * k);
@@ -76,7 +82,7 @@ Effect control_rounding(const kinematics::Chain& chain) {
             "post-processor digits, least input increment, encoder resolution",
             "more decimals in the program, finer increment system (IS-C)",
             "position + fraction (round to increment - position); fraction 1 when it is so",
-            {{"fraction", "1", 1.0, -1, {}, true},
+            {fraction(),
              {"increment_deg",
               "deg",
               0.001,
@@ -96,22 +102,21 @@ Effect control_rounding(const kinematics::Chain& chain) {
 }
 
 Effect control_chord(const kinematics::Chain&) {
-    return {
-        identity_of(EffectKind::control_chord),
-        "A curve is cut into straight pieces that pass inside it",
-        "coarse tolerance of the post-processor, rotary moves without tool-centre control",
-        "finer segments, or let the control interpolate (G02, G43.4)",
-        "linear axes inwards by fraction s (block_mm - s) / (2 r), s along the straight block",
-        {{"fraction", "1", 1.0, -1, {}, true}, {"block_mm", "mm", 2.0, -1, block_lengths(), false}},
-        [](const AxisSample& sample, const emulator::Contact& contact,
-           std::span<const double> value, kinematics::Perturbation& out) {
-            if (contact.device != records::Device::ballbar) return;
-            const PathTurn turn = turn_of(sample);
-            if (turn.speed < 1e-6) return;
-            const double s = std::fmod(sample.path_mm, value[1]);
-            const double time2 = s * (value[1] - s) / (turn.speed * turn.speed);
-            move_axes(value[0] * 0.5 * time2 * turn.acceleration, out);
-        }};
+    return {identity_of(EffectKind::control_chord),
+            "A curve is cut into straight pieces that pass inside it",
+            "coarse tolerance of the post-processor, rotary moves without tool-centre control",
+            "finer segments, or let the control interpolate (G02, G43.4)",
+            "linear axes inwards by fraction s (block_mm - s) / (2 r), s along the straight block",
+            {fraction(), {"block_mm", "mm", 2.0, -1, block_lengths(), false}},
+            [](const AxisSample& sample, const emulator::Contact& contact,
+               std::span<const double> value, kinematics::Perturbation& out) {
+                if (contact.device != records::Device::ballbar) return;
+                const PathTurn turn = turn_of(sample);
+                if (turn.speed < 1e-6) return;
+                const double s = std::fmod(sample.path_mm, value[1]);
+                const double time2 = s * (value[1] - s) / (turn.speed * turn.speed);
+                move_axes(value[0] * 0.5 * time2 * turn.acceleration, out);
+            }};
 }
 
 Effect pivot_g54(const kinematics::Chain& chain) {

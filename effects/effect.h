@@ -31,6 +31,8 @@ struct EffectParameter {
                              ///< from that line, and its slope is squareness
     std::string also_set_by = {};  ///< name in files that sets several parameters to one value
     bool counts_periods = false;   ///< key: a number of periods in a turn, not a length or an angle
+    int order = 0;                 ///< of a harmonic of a turn
+    bool is_part = false;          ///< a fraction of a whole: from 0 to 1
     bool is_key() const { return !grid.empty(); }
 };
 

@@ -19,7 +19,7 @@ double harmonic_sum(double angle_rad, std::span<const double> values) {
 
 void append_harmonics(std::vector<EffectParameter>& list, const Harmonics& h) {
     for (int n = 1; n <= h.orders; ++n)
-        for (const char* wave : {"cos", "sin"})
+        for (const char* wave : {"cos", "sin"}) {
             list.push_back({fmt::format("{}{}{}_{}", h.prefix, wave, n, h.unit),
                             h.unit,
                             h.typical / n,
@@ -27,6 +27,8 @@ void append_harmonics(std::vector<EffectParameter>& list, const Harmonics& h) {
                             {},
                             true,
                             n <= h.usual_orders});
+            list.back().order = n;
+        }
 }
 
 int main_direction(const kinematics::AxisGeometry& axis) {

@@ -6,7 +6,8 @@ namespace trunnion::effects {
 Effect sensor_gain() {
     return {identity_of(EffectKind::sensor_gain),
             "The instrument reads distances too long or too short, in proportion",
-            "wavelength without compensation of air, scale of a tracker, gain of an encoder",
+            "wavelength without compensation of air, scale of a tracker, gain of an encoder; in a "
+            "servo log a drive that yields to a load that follows the position",
             "calibrate the instrument on a known length; correct for air temperature and pressure",
             "reading + gain_ppm 1e-6 * what is read: position along the component (point, linear), "
             "position of the axis (axis)",

@@ -26,10 +26,14 @@ std::vector<Axis> axes_of(const kinematics::Chain& chain) {
 }  // namespace
 
 Effect servo_mismatch(const kinematics::Chain& chain) {
+    const bool single = chain.axes().size() == 1;  // nothing to be unlike
     Effect effect{identity_of(EffectKind::servo_mismatch),
-                  "Axes follow with different delay: circles become ovals at 45 degrees",
-                  "different position-loop gains or feed-forward between axes",
-                  "set the loop gains of all interpolating axes alike",
+                  single ? "The axis follows its command with a delay"
+                         : "Axes follow with different delay: circles become ovals at 45 degrees",
+                  single ? "gain of the position loop, no feed-forward"
+                         : "different position-loop gains or feed-forward between axes",
+                  single ? "raise the loop gain, or switch on the feed-forward"
+                         : "set the loop gains of all interpolating axes alike",
                   "position - tau_s * velocity - lag3_s3 * jerk, each axis its own",
                   {},
                   {},

@@ -43,7 +43,9 @@ double angle_rad(const InstrumentView& view) {
 }
 
 double encoder_mm(const InstrumentView& view) {
-    return view.state.extra.axis[view.contact.axis];
+    const std::size_t k = index_of(view.contact.axis);
+    return view.state.extra.axis[view.contact.axis] + view.setup.encoder_zero[k] +
+           view.offsets.encoder_zero[k];
 }
 
 void aim_at_displacement(const setup::Setup& setup, const records::Reading& row, Contact& contact) {

@@ -12,7 +12,7 @@ double linear_mm(const InstrumentView& view);
 /// rad.
 double angle_rad(const InstrumentView& view);
 /// `axis`: actual - commanded position of the row's axis by its own encoder, mm or rad: the sum of
-/// the effects that an encoder sees.
+/// the effects that an encoder sees, and its zero.
 double encoder_mm(const InstrumentView& view);
 
 /// Fills the contact of a `linear` or `angle` row: the tool pose in the declared control.

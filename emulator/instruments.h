@@ -22,7 +22,8 @@ struct ReplayOffsets {
         double scale = 0.0;
     };
     std::vector<InstrumentError> instruments;
-    std::vector<double> zeros;  ///< tests of linear and angle rows, mm or rad
+    std::vector<double> zeros;                      ///< tests of linear and angle rows, mm or rad
+    std::array<double, axis_count> encoder_zero{};  ///< of axis rows, mm or rad
     Vector3 cup_S = Vector3::Zero();
     double length = 0.0;                          ///< of the ballbar, mm
     setup::ExtensionErrors stylus_S, long_cup_S;  ///< by extension

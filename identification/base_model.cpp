@@ -12,6 +12,7 @@
 #include "emulator/device_noise.h"
 #include "estimation/ranked_least_squares.h"
 #include "identification/plausible.h"
+#include "identification/resolution.h"
 #include "identification/unknowns.h"
 #include "identification/zero_scatter.h"
 
@@ -102,7 +103,8 @@ Eigen::VectorXd take_step(BaseModel& model, const emulator::Replay& replay,
     return Eigen::VectorXd::Zero(step.size());
 }
 
-/// Weight of each row: 1 / sigma, reduced for outliers (Huber at 3 sigma of the median).
+/// Weight of each row: 1 / sigma, reduced for outliers (Huber at 3 sigma of the median). More than
+/// a tenth of the readings are no outliers, but part of what is fitted.
 Eigen::VectorXd row_weights(const BaseModel& model, const Eigen::VectorXd& r) {
     std::vector<double> size;
     for (Eigen::Index i = 0; i < r.size(); ++i) size.push_back(std::abs(r(i)) / model.sigma_mm(i));
@@ -111,6 +113,9 @@ Eigen::VectorXd row_weights(const BaseModel& model, const Eigen::VectorXd& r) {
                      sorted.end());
     const double limit = 3.0 * std::max(1.0, 1.4826 * sorted[sorted.size() / 2]);
     Eigen::VectorXd weight = model.sigma_mm.cwiseInverse();
+    const auto beyond =
+        std::count_if(size.begin(), size.end(), [&](double s) { return s > limit; });
+    if (10 * beyond > r.size()) return weight;
     for (Eigen::Index i = 0; i < r.size(); ++i) {
         const double s = size[static_cast<std::size_t>(i)];
         if (s > limit) weight(i) *= std::sqrt(limit / s);
@@ -257,6 +262,7 @@ RowNoise row_noise(const setup::Setup& setup, const records::ReadingTable& table
         noise.sigma_mm(static_cast<Eigen::Index>(i)) = of_row.sigma_mm;
         noise.given = noise.given && of_row.given;
     }
+    add_rounding(setup, table, replay, noise.sigma_mm);
     return noise;
 }
 

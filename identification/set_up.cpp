@@ -14,6 +14,7 @@ using Kind = SetUpQuantity::Kind;
 struct Used {
     std::set<int> artefacts, instruments;
     std::set<std::pair<bool, double>> extensions;  ///< of the stylus (true) or the cup
+    std::set<Axis> encoders;
     bool bar = false;
 };
 
@@ -26,6 +27,7 @@ Used used_by(const emulator::Replay& replay, std::size_t session) {
         used.artefacts.insert(contact.artefact);
         used.instruments.insert(contact.instrument);
         if (contact.extension_mm != 0.0) used.extensions.insert({!bar, contact.extension_mm});
+        if (contact.device == records::Device::axis) used.encoders.insert(contact.axis);
         used.bar = used.bar || bar;
     }
     return used;
@@ -85,6 +87,11 @@ double instrument_derivative(const SetUpQuantity& quantity, const emulator::Cont
     return along.dot(p);
 }
 
+bool is_read_by(const SetUpQuantity& encoder, const emulator::Contact& contact) {
+    return contact.device == records::Device::axis &&
+           index_of(contact.axis) == static_cast<std::size_t>(encoder.index);
+}
+
 }  // namespace
 
 namespace {
@@ -127,6 +134,13 @@ std::vector<FreeQuantity> quantities_of(const setup::Setup& setup, const Used& u
         if (instrument.free_pose) add_pose(list, instrument.name, {Kind::instrument, k});
         if (instrument.free_scale)
             list.push_back({instrument.name + ".scale", "1", 1e-4, {Kind::instrument, k, 6}});
+    }
+    for (const kinematics::AxisGeometry& axis : setup.machine.chain.axes()) {
+        if (!used.encoders.contains(axis.axis)) continue;
+        list.push_back({axis.name + (axis.rotary ? ".encoder_zero_rad" : ".encoder_zero_mm"),
+                        axis.rotary ? "rad" : "mm",
+                        axis.rotary ? 1e-4 : 0.1,
+                        {Kind::encoder, static_cast<int>(index_of(axis.axis))}});
     }
     return list;
 }
@@ -191,6 +205,7 @@ double& number_of(setup::Setup& setup, const SetUpQuantity& q) {
             return ball_of(setup.ballbar->extension_errors, q.extension_mm)(q.component);
         case Kind::instrument: return number_of(setup.instruments[k], q.component);
         case Kind::zero: return setup.zeros.at(k);
+        case Kind::encoder: return setup.encoder_zero.at(k);
         case Kind::artefact:
         case Kind::target_on_tool: return place_of(setup.artefacts[k])(q.component);
         default: return setup.ballbar->length_mm;
@@ -209,6 +224,7 @@ double set_up_derivative(const SetUpQuantity& q, const emulator::Replay& replay,
         case Kind::target_on_tool: return artefact_derivative(q, contact, gradient, true);
         case Kind::instrument: return instrument_derivative(q, contact);
         case Kind::zero: return contact.zero == q.index ? 1.0 : 0.0;
+        case Kind::encoder: return is_read_by(q, contact) ? 1.0 : 0.0;
         case Kind::cup: return bar ? gradient.tip_shift_mm(q.component) : 0.0;
         case Kind::length: return bar ? -1.0 : 0.0;
         case Kind::long_cup: return bar && same_length ? gradient.tip_shift_mm(q.component) : 0.0;
@@ -231,6 +247,8 @@ emulator::ReplayOffsets offsets_between(const setup::Setup& from, const setup::S
                                         is.pose_error.tilt_rad - was.pose_error.tilt_rad},
                                        is.scale_error - was.scale_error});
     }
+    for (std::size_t k = 0; k < axis_count; ++k)
+        offsets.encoder_zero[k] = to.encoder_zero[k] - from.encoder_zero[k];
     if (from.probe)
         offsets.stylus_S = difference(from.probe->extension_errors, to.probe->extension_errors);
     if (!from.ballbar) return offsets;

@@ -19,10 +19,11 @@ struct SetUpQuantity {
         stylus,  ///< ball of a longer stylus, relative to the position straight below
         long_cup,
         instrument,
-        zero  ///< zero of a test of a laser or autocollimator
+        zero,    ///< zero of a test of a laser or autocollimator
+        encoder  ///< zero of an axis's own encoder, mm or rad
     };
     Kind kind = Kind::none;
-    int index = 0;              ///< of artefact, instrument or test
+    int index = 0;              ///< of artefact, instrument, test or axis
     int component = 0;          ///< x y z; instrument: x y z, a b c of its pose, then its scale
     double extension_mm = 0.0;  ///< of a longer stylus or cup
     /// Later sessions: the setup has one location for each quantity only, so their values are

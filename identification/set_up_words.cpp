@@ -43,6 +43,24 @@ std::string words(const setup::Instrument& instrument, const Found& found) {
 
 }  // namespace
 
+namespace {
+
+/// The zero of an axis's encoder, where it is more than its uncertainty. Empty where it is not.
+std::string encoder_words(const FitParameter& zero) {
+    constexpr double sure_sigmas = 5.0;
+    if (zero.set_up.kind != Kind::encoder || !std::isfinite(zero.sigma) ||
+        std::abs(zero.value) < sure_sigmas * zero.sigma)
+        return {};
+    const std::string axis = zero.name.substr(0, zero.name.find('.'));
+    const bool turns = zero.unit == "rad";
+    return fmt::format("{}{} is read {} {} beside its commanded position in all rows",
+                       zero.set_up.session_name.empty() ? "" : zero.set_up.session_name + ": ",
+                       axis, three_digits(turns ? 1e6 * zero.value : 1e3 * zero.value),
+                       turns ? "µrad" : "µm");
+}
+
+}  // namespace
+
 std::vector<std::string> set_up_words(const setup::Setup& setup,
                                       const std::vector<FitParameter>& parameters) {
     std::map<std::pair<int, int>, Found> list;
@@ -60,6 +78,9 @@ std::vector<std::string> set_up_words(const setup::Setup& setup,
     for (const auto& [place, found] : list)
         sentences.push_back(
             words(setup.instruments[static_cast<std::size_t>(place.second)], found));
+    for (const FitParameter& p : parameters)
+        if (std::string text = encoder_words(p); !text.empty())
+            sentences.push_back(std::move(text));
     return sentences;
 }
 

@@ -73,12 +73,14 @@ Imported import_axis_log(const ImportRequest& request) {
             "test", tables.size() > 1 ? fmt::format("log_{}", number) : std::string("log"));
         row.commanded = positions_told(request.setup, facts.text("at"));
         rows.begin_file(table, facts);
+        if (time.invented()) rows.invent_times();
         if (time.dated()) rows.name_days();
         if (log.block && number == 1) rows.add_column(log.block->is_line ? "line" : "block");
         std::vector<records::TableCell> cells;
         for (std::size_t i = 0; i < table.size(); ++i) {
             table.read(i, cells);
             row.time_s = time.time_s(table, i, cells);
+            if (log.session) row.session = cells[*log.session].plain();
             write_row({table, i, cells}, log, row, rows);
         }
         tell(table, log, time, result);

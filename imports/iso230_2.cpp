@@ -139,6 +139,7 @@ class IsoImport {
             std::vector<IsoPoint>& points = test.series.points;
             take_deviations(*test.table, test.facts, test.quantities, points, result.notes);
             rows_.begin_file(*test.table, test.facts);
+            if (!test.series.timed && !test.facts.has("step_s")) rows_.invent_times();
             if (test.series.dated) rows_.name_days();
             write_points(points, row_of(test.what, test.facts), test.axis, rows_);
             tell(*test.table, points, test.axis, test.what.angular, result);

@@ -136,9 +136,11 @@ LogColumns log_columns(const TextTable& table, const setup::Setup& setup, const 
                        const TimeColumn& time, bool blocks) {
     LogColumns log;
     if (blocks) log.block = find_block_column(table);
+    log.session = find_column(table, {"session"});
     std::vector<std::pair<Axis, std::size_t>> plain;
     for (std::size_t k = 0; k < table.columns().size(); ++k) {
-        if (time.is_column(k) || (log.block && log.block->column == k)) continue;
+        if (time.is_column(k) || log.session == k || (log.block && log.block->column == k))
+            continue;
         const TextColumn& column = table.columns()[k];
         const auto role = role_in(column, setup.machine.chain.names(), facts);
         const auto axis = role ? axis_named(setup, role->axis) : std::nullopt;

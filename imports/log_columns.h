@@ -40,6 +40,7 @@ struct LogColumns {
     std::vector<std::string> taken_as_actual;  ///< "J5 pos" next to "J5 target"
     bool units_assumed = false;
     std::optional<BlockColumnFound> block;
+    std::optional<std::size_t> session;
 
     /// True for positions only, with the blocks of a program: no axis has both commanded and actual
     /// positions.

@@ -114,12 +114,14 @@ void import_sights(const TextTable& table, const ImportRequest& request, RowWrit
     row.commanded = positions_told(setup, facts.text("at"));
     rows.begin_file(table, facts);
     if (time.dated()) rows.name_days();
+    if (time.invented()) rows.invent_times();
     const int before = rows.count();
     int missing = 0;
     std::vector<records::TableCell> cells;
     for (std::size_t i = 0; i < table.size(); ++i) {
         table.read(i, cells);
         row.time_s = time.time_s(table, i, cells);
+        if (log.session) row.session = cells[*log.session].plain();
         missing += write_line(table, i, mount, row, rows) ? 0 : 1;
     }
     result.summary.push_back(fmt::format(

@@ -204,6 +204,7 @@ void import_table_of_points(const TextTable& table, const ImportRequest& request
     row.commanded = positions_told(setup, facts.text("at"));
     rows.begin_file(table, facts);
     if (time.dated()) rows.name_days();
+    if (time.invented()) rows.invent_times();
     std::size_t left_out = 0;
     const PointFile file{table, columns, target, setup, measured_points(table, columns, left_out)};
     std::vector<records::TableCell> cells;

@@ -1,5 +1,7 @@
 #include "imports/row_writer.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -72,6 +74,11 @@ std::string RowWriter::day_of_row(double time_s) {
     }
     day_s_ = time_s;
     return day_;
+}
+
+void RowWriter::invent_times() {
+    const std::string line = fmt::format("# {} = {}\n", records::times_key, records::invented);
+    if (text_.find(line) == std::string::npos) text_.insert(0, line);
 }
 
 void RowWriter::add_column(const std::string& name) {

@@ -28,6 +28,8 @@ class RowWriter {
     /// Times of this file are seconds since 1970: a pause of four hours starts a new session named
     /// after its day, unless the file or `--with session=` gives a name.
     void name_days() { dated_ = true; }
+    /// Times of the following rows are an order only: the table says so in its head.
+    void invent_times();
     /// Another program run in the same file: its clock may restart.
     void begin_run() { begins_ = true; }
     /// `row.time_s` is the time in the file; throws InputError when it decreases within a session.

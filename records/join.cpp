@@ -68,6 +68,7 @@ void append(ReadingTable& to, ReadingTable from) {
         if (std::find(to.optional_columns.begin(), to.optional_columns.end(), column) ==
             to.optional_columns.end())
             to.optional_columns.push_back(std::move(column));
+    if (!has_times(from)) to.comment[times_key] = invented;
     if (!touches_of(from).empty()) to.comment["touches"] = touches_of(from);
     to.parts.push_back(from.path);
 }

@@ -258,6 +258,11 @@ std::string format_readings(const ReadingTable& table) {
     return out;
 }
 
+bool has_times(const ReadingTable& table) {
+    const auto told = table.comment.find(times_key);
+    return told == table.comment.end() || told->second != invented;
+}
+
 bool only_angles(const ReadingTable& table) {
     bool any = false;
     for (const Reading& row : table.rows) {

@@ -62,6 +62,10 @@ struct ReadingTable {
     std::vector<Reading> rows;
 };
 
+/// Head line `times = invented`: no clock was read, the times of the rows are their order.
+constexpr const char *times_key = "times", *invented = "invented";
+bool has_times(const ReadingTable& table);
+
 /// True when every row with a device reads an angle.
 bool only_angles(const ReadingTable& table);
 /// µm in a mm, or µrad in a rad where all readings are angles.

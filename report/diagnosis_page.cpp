@@ -197,6 +197,15 @@ std::string where_section(const diagnosis::Diagnosis& d) {
     return text + "</ul>\n";
 }
 
+std::string set_up_section(const diagnosis::Diagnosis& d) {
+    if (d.set_up_words.empty()) return "";
+    std::string text =
+        "<h2>Set-up</h2>\n<p>Fitted beside the causes, no part of the gap.</p>\n<ul>\n";
+    for (const std::string& sentence : d.set_up_words)
+        text += "<li>" + escape_xml(upper_first(sentence)) + ".</li>\n";
+    return text + "</ul>\n";
+}
+
 std::string next_section(const diagnosis::Diagnosis& d) {
     if (d.next.empty()) return "";
     std::string text = "<h2>What to measure next</h2>\n";
@@ -243,7 +252,10 @@ std::string causes_section(const diagnosis::Diagnosis& d) {
                paragraph_html("All causes together, on readings that took no part in the fit.") +
                    figure_html(before_after(d, d.after), "Before and after") +
                    paragraph_html(fmt::format(
-                       "Beyond noise the gap shrinks by {} % (95 %: {} to {} %).",
+                       "{}Beyond noise the gap shrinks by {} % (95 %: {} to {} %).",
+                       d.writes_causes ? ""
+                                       : "The written setup has none of the causes: none of them "
+                                         "helps on readings elsewhere. ",
                        percent(d.after.shrink), percent(d.after.low), percent(d.after.high))));
 }
 
@@ -264,7 +276,7 @@ Page diagnosis_page(const diagnosis::Diagnosis& d, const std::string& readings) 
     page.body_html = causes_section(d) + changes_section(d);
     page.body_html += section_html(
         "All readings", figure_html(residual_plot(d), "Machine minus simulation of each reading"));
-    page.body_html += where_section(d) + next_section(d);
+    page.body_html += where_section(d) + set_up_section(d) + next_section(d);
     if (!d.causes.empty()) page.body_html += "<h2>The causes one by one</h2>\n";
     for (const diagnosis::Cause& cause : d.causes) page.body_html += cause_section(cause);
     page.body_html += small_print(d);

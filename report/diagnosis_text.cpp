@@ -72,6 +72,7 @@ std::string diagnosis_text(const diagnosis::Diagnosis& d) {
                                   d.outliers, size_words(d, d.rms_um), size_words(d, d.noise_um),
                                   to_string(d.noise.source), excess),
                       0);
+    for (const std::string& sentence : d.set_up_words) text += paragraph(sentence, 2);
     for (const identification::FoundSide& s : d.sides) text += fmt::format("  {}\n", to_string(s));
     if (d.chosen_from > 0) text += fmt::format("  chosen evenly from {} readings\n", d.chosen_from);
     for (const diagnosis::DriverShare& w : d.where) text += fmt::format("  {}\n", w.text);
@@ -79,10 +80,11 @@ std::string diagnosis_text(const diagnosis::Diagnosis& d) {
     if (!d.causes.empty())
         text += "\n" + paragraph(fmt::format("after: rms {}; of readings left out the causes "
                                              "explain {} %{}; with the "
-                                             "written setup the gap shrinks by {} % ({} to "
+                                             "written setup{} the gap shrinks by {} % ({} to "
                                              "{})",
                                              size_words(d, d.after_rms_um), percent(d.explained),
                                              d.between_places ? "" : " at the measured places",
+                                             d.writes_causes ? "" : ", which has none of them,",
                                              percent(d.after.shrink), percent(d.after.low),
                                              percent(d.after.high)),
                                  0);

@@ -100,7 +100,7 @@ std::string changes_text(const diagnosis::Diagnosis& d) {
     std::string text = "\n" + paragraph(sentence(d), 0);
     for (const diagnosis::SessionFit& s : d.sessions)
         text += fmt::format("  {:<12} {} readings, rms {} -> {}\n", s.name, s.readings,
-                            length_words(s.rms_before_um), length_words(s.rms_after_um));
+                            size_words(d, s.rms_before_um), size_words(d, s.rms_after_um));
     text += fmt::format("  {:<24} {:<8} {:>8} {:>8} {:>8} {:>7}\n", "parameter", "since", "before",
                         "after", "change", "sigma");
     for (const diagnosis::SessionChange* c : in_order(d)) {

@@ -140,6 +140,9 @@ struct Setup {
                                                      ///< the first move
     std::array<bool, axis_count> scale_encoder{};  ///< encoder = "scale": does not see the backlash
                                                    ///< of the drive
+    /// encoder_zero_mm, encoder_zero_rad: what the axis's own encoder reads, actual - commanded,
+    /// where the axis stands as commanded; mm or rad. A fit of `axis` rows finds it.
+    std::array<double, axis_count> encoder_zero{};
     /// Backlash that depends on the place: backlash_mm, backlash_rad given as a table. The gap at a
     /// position, mm or rad, with the sign of the effect X.backlash, to which it adds.
     std::array<kinematics::ErrorCurve, axis_count> gap{};

@@ -133,6 +133,9 @@ std::string machine_text(const Setup& setup) {
         const kinematics::AxisErrors& own = setup.machine.errors.axis[index_of(axis.axis)];
         out += axis_text(axis);
         if (setup.scale_encoder[index_of(axis.axis)]) out += "encoder = \"scale\"\n";
+        if (const double zero = setup.encoder_zero[index_of(axis.axis)]; zero != 0.0)
+            out += (axis.rotary ? "encoder_zero_rad = " : "encoder_zero_mm = ") + shortest(zero) +
+                   '\n';
         if (const kinematics::ErrorCurve& gap = setup.gap[index_of(axis.axis)]; !gap.is_zero())
             out += (axis.rotary ? "backlash_rad = " : "backlash_mm = ") +
                    curve_text(gap, axis.rotary) + '\n';

@@ -115,6 +115,12 @@ bool read_scale_encoder(const TomlFile& file, const TomlValue& table) {
     return encoder->text == "scale";
 }
 
+double read_encoder_zero(const TomlFile& file, const TomlValue& table, bool rotary) {
+    const TomlValue* zero = table.find(rotary ? "encoder_zero_rad" : "encoder_zero_mm");
+    if (!zero) return 0.0;
+    return file.number(*zero);
+}
+
 /// Sides from which the axes arrived before their first move; default: travelling +.
 void read_sides(const TomlFile& file, const TomlValue& sides, Setup& setup) {
     for (const auto& [name, value] : file.table(sides).entries) {
@@ -149,7 +155,8 @@ bool read_auxiliary_axis(const TomlFile& file, const std::string& name, const To
                          Setup& setup) {
     for (kinematics::AxisGeometry& axis : setup.auxiliary) {
         if (axis.name != name) continue;
-        for (const char* key : {"direction", "point_mm", "encoder", "backlash_mm", "backlash_rad"})
+        for (const char* key : {"direction", "point_mm", "encoder", "encoder_zero_mm",
+                                "encoder_zero_rad", "backlash_mm", "backlash_rad"})
             if (const TomlValue* value = file.table(table).find(key))
                 file.fail(*value, "axis " + name + " is auxiliary: it has travel and speeds only");
         read_kind(file, table, axis);
@@ -169,6 +176,7 @@ void read_axes(const TomlFile& file, const TomlValue& axes, Setup& setup) {
         const std::size_t k = index_of(axis->axis);
         read_axis(file, file.table(value), *axis, setup);
         setup.scale_encoder[k] = read_scale_encoder(file, value);
+        setup.encoder_zero[k] = read_encoder_zero(file, value, axis->rotary);
     }
 }
 

@@ -88,6 +88,58 @@ records::ReadingTable ovals(const double (&loop)[2][2], std::mt19937_64& engine)
 
 }  // namespace
 
+TEST_CASE("what an encoder counts from is set-up: the lag beside it has its size, and it is told",
+          "[diagnosis][servo]") {
+    const double zero_mm = GENERATE(-0.3, 0.003, 2.0);
+    const double lag_s = GENERATE(0.0, 0.004);
+    setup::Setup real = machine();
+    real.effects = {{"servo.mismatch", {{"tau_x_s", {lag_s}}}}};
+    records::ReadingTable table = measured(real, log("test", 1000, 0.3), 5);
+    for (records::Reading& row : table.rows) *row.value_mm += zero_mm;
+    diagnosis::DiagnosisOptions options;
+    options.plan_next = false;
+    const diagnosis::Diagnosis d = diagnosis::diagnose(machine(), table, options);
+    INFO(zero_mm << " mm, " << lag_s << " s: " << said(d));
+    if (lag_s == 0.0) {
+        CHECK(d.verdict == diagnosis::Verdict::no_gap);
+    } else {
+        REQUIRE(!d.causes.empty());
+        CHECK(d.verdict == diagnosis::Verdict::explained);
+        CHECK(d.causes.front().effect == "servo.mismatch");
+        CHECK(d.causes.front().parameters.front().value == Approx(lag_s).epsilon(0.01));
+    }
+    REQUIRE(d.set_up_words.size() == 1);
+    CHECK_THAT(d.set_up_words.front(),
+               Catch::StartsWith("X is read ") &&
+                   Catch::EndsWith("beside its commanded position in all rows"));
+    CHECK(d.setup.encoder_zero[index_of(Axis::X)] == Approx(zero_mm).margin(2e-4));
+    // The written setup knows it: a later log has no gap and no zero.
+    std::vector<std::string> notes;
+    const setup::Setup written =
+        setup::parse_setup(setup::format_setup(d.setup), "written.toml", notes);
+    const diagnosis::Diagnosis again = diagnosis::diagnose(written, table, options);
+    CHECK(again.verdict == diagnosis::Verdict::no_gap);
+    CHECK(again.rms_um == Approx(1.0).epsilon(0.1));
+}
+
+TEST_CASE("no control rounds by many times its increment, whatever this would explain",
+          "[diagnosis][servo]") {
+    // The quantisation of a coarse encoder, 40 times the rounding of the command, and a creep.
+    records::ReadingTable table = log("test", 1000, 0.3);
+    std::mt19937_64 engine(11);
+    std::normal_distribution<double> noise(0.0, 5e-4);
+    for (records::Reading& row : table.rows) {
+        const double x = row.commanded[Axis::X], step = 0.002;
+        row.value_mm = 40.0 * (std::round(x / step) * step - x) + noise(engine);
+    }
+    diagnosis::DiagnosisOptions options;
+    options.plan_next = false;
+    const diagnosis::Diagnosis d = diagnosis::diagnose(machine(), table, options);
+    INFO(said(d));
+    CHECK(d.verdict != diagnosis::Verdict::no_gap);
+    for (const diagnosis::Cause& cause : d.causes) CHECK(cause.effect != "control.rounding");
+}
+
 TEST_CASE("the lag of one recording is named, and nothing else", "[diagnosis]") {
     const setup::Setup setup = machine();
     setup::Setup real = setup;

@@ -1,0 +1,71 @@
+#include "identification/resolution.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "base/units.h"
+#include "emulator/device_noise.h"
+
+namespace trunnion::identification {
+
+namespace {
+
+bool is_multiple(double value, double steps) {
+    constexpr double rounding = 1e-6;  // of a step: differences of large positions
+    return std::abs(value * steps - std::round(value * steps)) <= rounding;
+}
+
+/// Standard deviation of a value by its last digit.
+double spread_of(double step) {
+    return step / std::sqrt(12.0);
+}
+
+/// Digits before the decimal point of the position of an axis row.
+int digits_of(const records::Reading& row, const emulator::Contact& contact) {
+    if (row.device != records::Device::axis) return 0;
+    const double at = std::abs(row.commanded[contact.axis]);
+    return static_cast<int>(std::log10(std::max(1.0, row.angular ? deg_from_rad(at) : at)));
+}
+
+}  // namespace
+
+double decimal_step(const std::vector<double>& values) {
+    std::vector<double> moved;
+    for (const double v : values)
+        if (v != 0.0) moved.push_back(v);
+    if (moved.size() < 5) return 0.0;
+    for (double steps = 1.0; steps < 2e6; steps *= 10.0) {
+        const auto on = std::count_if(moved.begin(), moved.end(),
+                                      [&](double v) { return is_multiple(v, steps); });
+        if (static_cast<double>(on) >= 0.95 * static_cast<double>(moved.size())) return 1.0 / steps;
+    }
+    return 0.0;
+}
+
+void add_rounding(const setup::Setup& setup, const records::ReadingTable& table,
+                  const emulator::Replay& replay, Eigen::VectorXd& sigma_mm) {
+    using Key = std::tuple<records::Device, std::string, int>;
+    std::map<Key, std::vector<std::size_t>> alike;
+    for (std::size_t i = 0; i < replay.size(); ++i) {
+        const records::Reading& row = table.rows[replay.table_row(i)];
+        if (row.value_mm && !emulator::device_noise(setup.model, row).given)
+            alike[{row.device, row.feature, digits_of(row, replay.contact(i))}].push_back(i);
+    }
+    for (const auto& [of, rows] : alike) {
+        const bool angular = table.rows[replay.table_row(rows.front())].angular;
+        std::vector<double> values;
+        for (const std::size_t i : rows) {
+            const double value = *table.rows[replay.table_row(i)].value_mm;
+            values.push_back(angular ? deg_from_rad(value) : value);
+        }
+        const double spread = spread_of(decimal_step(values));
+        for (const std::size_t i : rows) {
+            double& sigma = sigma_mm(static_cast<Eigen::Index>(i));
+            sigma = std::max(sigma, angular ? rad_from_deg(spread) : spread);
+        }
+    }
+}
+
+}  // namespace trunnion::identification

@@ -1,0 +1,97 @@
+// Records of few digits: the last digit counts as noise, and clusters of readings are no outliers.
+#include "identification/resolution.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "base/units.h"
+#include "identification/base_model.h"
+#include "identification/identify.h"
+
+namespace trunnion {
+namespace {
+
+setup::Setup machine() {
+    std::vector<std::string> notes;
+    return setup::parse_setup(
+        "[machine]\nname = \"m\"\nchain = \"w b X Y Z t\"\n[model]\nmodelled = []\n", "s.toml",
+        notes);
+}
+
+double three_digits_of(double value) {
+    const double step = std::abs(value) >= 100.0 ? 1.0 : std::abs(value) >= 10.0 ? 0.1 : 0.01;
+    return std::round(value / step) * step;
+}
+
+/// X to and fro over 50 to 150 mm, 10 ms apart, kept to three digits; it lags by 9 ms.
+records::ReadingTable log() {
+    records::ReadingTable table;
+    table.path = "log.csv";
+    table.axes = {Axis::X, Axis::Y, Axis::Z};
+    for (int k = 0; k < 3000; ++k) {
+        records::Reading row;
+        row.index = k;
+        row.time_s = 0.01 * k;
+        row.test = "log";
+        row.device = records::Device::axis;
+        row.feature = "X";
+        const double w = 0.7, x = 100.0 + 50.0 * std::sin(w * row.time_s);
+        row.commanded[Axis::X] = three_digits_of(x);
+        const double read = x - 0.009 * 50.0 * w * std::cos(w * row.time_s);
+        row.velocity_mm_s = 50.0 * w * std::cos(w * row.time_s);
+        row.value_mm = three_digits_of(read) - row.commanded[Axis::X];
+        table.rows.push_back(row);
+    }
+    table.optional_columns = {"velocity_mm_s"};
+    return table;
+}
+
+}  // namespace
+
+TEST_CASE("the last digit of values", "[identification]") {
+    using identification::decimal_step;
+    CHECK(decimal_step({0.0, 1.0, -2.0, 3.0, 5.0, 7.0}) == 1.0);
+    CHECK(decimal_step({0.1, 0.2, -0.4, 0.3, 1.0, 0.0}) == 0.1);
+    CHECK(decimal_step({0.015, 0.02, 0.033, 0.0, -0.1, 0.5}) == 0.001);
+    CHECK(decimal_step({0.0, 0.0, 0.0}) == 0.0);
+    CHECK(decimal_step({1.0, 2.0, 3.0, 4.0}) == 0.0);  // too few
+    CHECK(decimal_step({0.12345678, 0.2345678, 0.3456789, 0.456789, 0.56789}) == 0.0);
+    // Differences of large numbers are not exact; a few readings may have another digit.
+    CHECK(decimal_step({198.7 - 198.6, 99.9 - 100.0, 1e3 - 1000.3, 0.2, 0.4}) == 0.1);
+    std::vector<double> many(40, 1.0);
+    many[7] = 0.1;
+    many[9] = 2.3;
+    CHECK(decimal_step(many) == 1.0);
+    many[11] = 0.4;
+    CHECK(decimal_step(many) == 0.1);
+}
+
+TEST_CASE("a servo log of three digits: the sigma is that of the digits, and the lag is right",
+          "[identification]") {
+    const setup::Setup setup = machine();
+    const records::ReadingTable table = log();
+    const emulator::Replay replay(setup, table);
+    const identification::RowNoise noise = identification::row_noise(setup, table, replay);
+    CHECK_FALSE(noise.given);
+    for (std::size_t i = 0; i < replay.size(); ++i) {
+        const bool coarse = table.rows[i].commanded[Axis::X] >= 100.0;
+        CHECK(noise.sigma_mm(static_cast<Eigen::Index>(i)) ==
+              Approx((coarse ? 1.0 : 0.1) / std::sqrt(12.0)));
+    }
+    const identification::Identification fit =
+        identification::identify(setup, table, {"servo.mismatch"});
+    double tau_s = 0.0, sigma_s = 0.0;
+    for (const identification::FitParameter& p : fit.parameters)
+        if (p.name == "tau_x_s") {
+            tau_s = p.value;
+            sigma_s = p.sigma;
+        }
+    CHECK(tau_s == Approx(0.009).margin(3.0 * sigma_s));
+    CHECK(sigma_s < 0.001);
+    // A stated noise is kept.
+    setup::Setup stated = setup;
+    stated.model.noise_um["axis"] = 3.0;
+    CHECK(identification::row_noise(stated, table, replay).sigma_mm.maxCoeff() == 0.003);
+}
+
+}  // namespace trunnion
