@@ -110,7 +110,7 @@ struct Standing {
 Contender against(FoldColumns& rows, const Standing& chosen, Model model) {
     Contender contender{std::move(model), 0.0};
     contender.ahead = weight_of(rows.design(), contender.model) - chosen.weight;
-    const Saving saving = saving_of(loss_of(rows, contender.model), chosen.loss);
+    const Saving saving = steady_saving_of(loss_of(rows, contender.model), chosen.loss);
     const double per_nat = 2.0 * chosen.model.variances.nu * chosen.model.variances.nu;
     contender.predicted = saving.sum / per_nat;
     contender.spread = saving.spread / per_nat;
@@ -197,11 +197,12 @@ std::optional<Contender> with_slope_apart(const Searching& search, const Standin
     return against(rows, chosen, std::move(model));
 }
 
-/// True for a cause of textbook forms alone.
-bool is_textbook(const Design& design, const Model& model, const std::string& cause) {
+/// True for a cause of textbook forms alone, or a play, of which a driver by direction is the same.
+bool is_beside_drivers(const Design& design, const Model& model, const std::string& cause) {
     return std::none_of(model.members.begin(), model.members.end(), [&](std::size_t m) {
         const ColumnGroup& group = design.group(m);
-        return group.name == cause && is_cause(group.kind) && group.kind != GroupKind::textbook;
+        return group.name == cause && is_cause(group.kind) && group.kind != GroupKind::textbook &&
+               !group.table.play;
     });
 }
 
@@ -238,14 +239,14 @@ Contender contender_of(const Searching& search, const Standing& chosen, FoldColu
     // A driver has nothing in common with a textbook form, but makes one out of another effect: a
     // spike less what a driver has of it is a backlash. It joins only where a cause has other
     // forms.
-    const bool textbook = is_textbook(design, chosen.model, cause);
+    const bool beside = is_beside_drivers(design, chosen.model, cause);
     const auto chosen_too = [&](const ColumnGroup& group) {
         return std::any_of(chosen.model.members.begin(), chosen.model.members.end(),
                            [&](std::size_t m) { return &design.group(m) == &group; });
     };
     Contender best = best_without(search, chosen, rows, [&](const ColumnGroup& group) {
         return (is_cause(group.kind) && group.name == cause) ||
-               (textbook && group.kind == GroupKind::driver && !chosen_too(group));
+               (beside && group.kind == GroupKind::driver && !chosen_too(group));
     });
     for (std::size_t k = 0; k < chosen.model.members.size(); ++k) {
         const ColumnGroup& group = design.group(chosen.model.members[k]);

@@ -9,6 +9,7 @@
 #include "diagnosis/rules.h"
 #include "estimation/free_form.h"
 #include "estimation/inner_products.h"
+#include "estimation/quantiles.h"
 
 namespace trunnion::diagnosis {
 namespace {
@@ -26,14 +27,22 @@ double BlockLoss::mean() const {
     return count > 0.0 ? sum / count : 0.0;
 }
 
-Saving saving_of(const BlockLoss& without, const BlockLoss& with) {
+namespace {
+
+/// What each block saves, without those that hardly differ.
+std::vector<double> saved_by_block(const BlockLoss& without, const BlockLoss& with) {
     std::vector<double> saved;
-    double scale = 0.0, sum = 0.0, square = 0.0;
+    double scale = 0.0;
     for (std::size_t b = 0; b < without.square.size(); ++b)
         scale = std::max(scale, std::abs(without.square[b] - with.square[b]));
     for (std::size_t b = 0; b < without.square.size(); ++b)
         if (const double d = without.square[b] - with.square[b]; std::abs(d) > 1e-6 * scale)
             saved.push_back(d);
+    return saved;
+}
+
+Saving sum_of(const std::vector<double>& saved) {
+    double sum = 0.0, square = 0.0;
     for (const double d : saved) sum += d;
     Saving result{0.0, static_cast<double>(saved.size()), sum, std::abs(sum)};
     if (saved.size() < 2) return result;
@@ -43,6 +52,23 @@ Saving saving_of(const BlockLoss& without, const BlockLoss& with) {
     result.t = error > 0.0 ? mean / error : 0.0;
     result.spread = error * result.blocks;
     return result;
+}
+
+}  // namespace
+
+Saving saving_of(const BlockLoss& without, const BlockLoss& with) {
+    return sum_of(saved_by_block(without, with));
+}
+
+Saving steady_saving_of(const BlockLoss& without, const BlockLoss& with) {
+    constexpr double most = 4.0;  // of the median size
+    std::vector<double> saved = saved_by_block(without, with), sizes;
+    if (saved.size() < 3) return sum_of(saved);
+    const double sign = sum_of(saved).sum < 0.0 ? -1.0 : 1.0;
+    for (const double d : saved) sizes.push_back(std::abs(d));
+    const double limit = most * estimation::median(sizes);
+    for (double& d : saved) d = sign * std::min(sign * d, limit);
+    return sum_of(saved);
 }
 
 namespace {

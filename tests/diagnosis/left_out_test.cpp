@@ -143,6 +143,26 @@ TEST_CASE("what all blocks save alike has no t, and one block says nothing", "[d
     CHECK(uneven.t == Approx(2.0 * std::sqrt(3.0)));  // 1, 2, 3: mean 2, error 1 / sqrt(3)
 }
 
+TEST_CASE("a block that one model misses by far makes a saving large, not uncertain",
+          "[diagnosis]") {
+    const std::vector<double> rows(6, 2.0);
+    const diagnosis::BlockLoss with{{1.0, 1.0, 1.0, 1.0, 1.0, 1.0}, rows};
+    const auto t_of = [&](std::vector<double> square) {
+        return steady_saving_of({std::move(square), rows}, with).t;
+    };
+    const double even = t_of({3.0, 4.0, 3.0, 4.0, 3.0, 4.0});
+    CHECK(even == Approx(saving_of({{3.0, 4.0, 3.0, 4.0, 3.0, 4.0}, rows}, with).t));
+    // Ordinary t: 1.05. Taken as four times the median of 2.5: 10.
+    const diagnosis::BlockLoss far{{3.0, 4.0, 3.0, 4.0, 3.0, 400.0}, rows};
+    CHECK(saving_of(far, with).t < 1.1);
+    CHECK(steady_saving_of(far, with).sum == Approx(22.0));
+    CHECK(steady_saving_of(far, with).t > 2.5);
+    // What speaks against the sum counts as it is.
+    const diagnosis::BlockLoss against{{41.0, 41.0, 41.0, 41.0, 41.0, -150.0}, rows};
+    CHECK(steady_saving_of(against, with).t == Approx(saving_of(against, with).t));
+    CHECK(steady_saving_of(with, with).blocks == 0.0);
+}
+
 TEST_CASE("of a whole turn sectors of 15 degrees are left out, half a turn once", "[diagnosis]") {
     const setup::Setup setup = campaign::bc_setup();
     records::ReadingTable table = campaign::empty_table(setup);
