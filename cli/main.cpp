@@ -1,6 +1,9 @@
 // trunnion: parses the command line, runs one command, converts exceptions into messages and exit
 // codes.
 #include <fmt/format.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -270,9 +273,21 @@ void note_missing_memory() {
     std::_Exit(exit_limit);
 }
 
+/// Matrices of a few megabytes are allocated and freed all the time. Without this glibc takes each
+/// of them from the kernel anew, page by page, a sixth of the time of `diagnose`.
+void keep_freed_memory() {
+#ifdef __GLIBC__
+    constexpr int megabyte = 1 << 20;
+    mallopt(M_MMAP_THRESHOLD, 32 * megabyte);  // the most that it accepts
+    mallopt(M_TRIM_THRESHOLD, 256 * megabyte);
+    mallopt(M_TOP_PAD, 4 * megabyte);
+#endif
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+    keep_freed_memory();
     std::set_new_handler(note_missing_memory);
     std::set_terminate(end_without_memory);
     prepare_streams();

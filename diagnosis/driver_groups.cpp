@@ -192,9 +192,11 @@ class DriverList {
             const RowFunction q = [this, axis](std::size_t i) {
                 return replay_.sample(i).position[axis] * (turns(axis) ? 0.5 : 0.01);
             };
-            std::set<double> values;
-            for (std::size_t i = 0; i < n(); ++i) values.insert(sign(i));
-            if (!values.count(-1.0) || !values.count(1.0)) continue;
+            constexpr int few = 3;  // a first row of unknown side is no second direction
+            int forward = 0, back = 0;
+            for (std::size_t i = 0; i < n(); ++i)
+                (sign(i) > 0.0 ? forward : back) += sign(i) != 0.0;
+            if (std::min(forward, back) < few) continue;
             const std::string& name = table_.names[axis];
             const RowFunction since = [this, axis, sign](std::size_t i) {
                 const double s = replay_.sample(i).since_reversal[index_of(axis)];

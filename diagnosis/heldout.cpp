@@ -9,6 +9,7 @@
 #include "diagnosis/rules.h"
 #include "estimation/free_form.h"
 #include "estimation/inner_products.h"
+#include "estimation/lower_triangle.h"
 #include "estimation/quantiles.h"
 
 namespace trunnion::diagnosis {
@@ -194,10 +195,7 @@ void LeftOut::retune(const std::vector<bool>& fitted, const estimation::Variance
         const double tau = std::max(1e-9, variances.tau[next++]);
         precision_.segment(first_[m], size_[m]).setConstant(noise / (tau * tau));
     }
-    for (Fold& fold : fold_) {
-        fold.covariance.resize(0, 0);
-        fold.mean.resize(0);
-    }
+    for (Fold& fold : fold_) fold.mean.resize(0);
 }
 
 /// Column indices of the marked members, preceded by those of the set-up if `known`.
@@ -211,6 +209,20 @@ std::vector<Eigen::Index> LeftOut::columns_of(const std::vector<bool>& members, 
 
 /// Coefficients without the rows of the fold; zero for members that are not fitted. If only a few
 /// members are missing: the full fit under the condition that their coefficients are zero.
+namespace {
+
+/// L^-1, where L L' is the information: its square is the covariance.
+Eigen::MatrixXd half_of_inverse(const Eigen::MatrixXd& gram, const Eigen::VectorXd& precision) {
+    const Eigen::Index size = gram.rows(), rows = estimation::padded_rows(size);
+    Eigen::MatrixXd a = Eigen::MatrixXd::Identity(rows, rows);
+    a.topLeftCorner(size, size) = gram;
+    a.diagonal().head(size) += precision;
+    estimation::factor_in_place(a);
+    return estimation::inverse_of_lower(a).topLeftCorner(size, size);
+}
+
+}  // namespace
+
 Eigen::VectorXd LeftOut::fit(const Fold& fold, const std::vector<bool>& fitted) const {
     std::vector<bool> absent = fitted;
     absent.flip();
@@ -225,18 +237,14 @@ Eigen::VectorXd LeftOut::fit(const Fold& fold, const std::vector<bool>& fitted) 
         return x;
     }
     if (fold.mean.size() == 0) {
-        Eigen::MatrixXd a = fold.gram;
-        a.diagonal() += precision_;
-        fold.factor.compute(a);
-        fold.mean = fold.factor.solve(fold.product);
+        fold.half = half_of_inverse(fold.gram, precision_);
+        fold.mean = fold.half.transpose() * (fold.half * fold.product);
     }
     if (gone.empty()) return fold.mean;
-    if (fold.covariance.size() == 0)
-        fold.covariance =
-            fold.factor.solve(Eigen::MatrixXd::Identity(fold.mean.size(), fold.mean.size()));
-    const Eigen::MatrixXd inside = fold.covariance(gone, gone);
-    const Eigen::VectorXd held = fold.mean(gone), force = inside.llt().solve(held);
-    Eigen::VectorXd x = fold.mean - fold.covariance(Eigen::all, gone) * force;
+    const Eigen::MatrixXd half_gone = fold.half(Eigen::all, gone);
+    const Eigen::VectorXd held = fold.mean(gone),
+                          force = estimation::inner_products(half_gone).llt().solve(held);
+    Eigen::VectorXd x = fold.mean - fold.half.transpose() * (half_gone * force);
     x(gone).setZero();
     return x;
 }
@@ -267,7 +275,7 @@ double LeftOut::surprise() const {
         // (I + X P^-1 X')^-1 = I - X (P + X'X)^-1 X', P the information of the other rows.
         Eigen::MatrixXd whole = fold.gram;
         whole.diagonal() += precision_;
-        whole.selfadjointView<Eigen::Lower>().rankUpdate(fold.out.transpose());
+        whole += estimation::inner_products(fold.out);
         const Eigen::VectorXd product = fold.out.transpose() * left;
         sum -= whole.selfadjointView<Eigen::Lower>().llt().matrixL().solve(product).squaredNorm();
     }

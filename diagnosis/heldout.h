@@ -82,10 +82,9 @@ class LeftOut {
         std::vector<Eigen::Index> rows;
         Eigen::MatrixXd out, gram;  ///< columns of its rows; products over all other rows
         Eigen::VectorXd data, product;
-        /// With all members fitted: factor of the information, mean and covariance (divided by the
+        /// With all members fitted: mean, and half of the covariance, R with R'R (divided by the
         /// noise variance), from which any smaller fit follows. Empty until needed.
-        mutable Eigen::LLT<Eigen::MatrixXd> factor{Eigen::MatrixXd(0, 0)};
-        mutable Eigen::MatrixXd covariance;
+        mutable Eigen::MatrixXd half;
         mutable Eigen::VectorXd mean;
     };
     Eigen::VectorXd fit(const Fold& fold, const std::vector<bool>& fitted) const;

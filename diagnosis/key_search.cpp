@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "estimation/inner_products.h"
+
 namespace trunnion::diagnosis {
 namespace {
 
@@ -128,8 +130,8 @@ KeySearch::Remainder KeySearch::remainder(const Eigen::VectorXd& left_mm,
     const Eigen::Index count = r.fitted.cols();
     // Without columns Eigen would multiply by way of a null pointer.
     if (count == 0) return r;
-    Eigen::MatrixXd square = rounding * Eigen::MatrixXd::Identity(count, count);
-    square.selfadjointView<Eigen::Lower>().rankUpdate(r.fitted.transpose());
+    Eigen::MatrixXd square = estimation::inner_products(r.fitted);
+    square.diagonal().array() += rounding;
     r.factor.compute(square);
     r.along = r.factor.matrixL().solve(r.fitted.transpose() * r.fine);
     return r;

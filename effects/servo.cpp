@@ -27,17 +27,21 @@ std::vector<Axis> axes_of(const kinematics::Chain& chain) {
 
 Effect servo_mismatch(const kinematics::Chain& chain) {
     const bool single = chain.axes().size() == 1;  // nothing to be unlike
-    Effect effect{identity_of(EffectKind::servo_mismatch),
-                  single ? "The axis follows its command with a delay"
-                         : "Axes follow with different delay: circles become ovals at 45 degrees",
-                  single ? "gain of the position loop, no feed-forward"
-                         : "different position-loop gains or feed-forward between axes",
-                  single ? "raise the loop gain, or switch on the feed-forward"
-                         : "set the loop gains of all interpolating axes alike",
-                  "position - tau_s * velocity - lag3_s3 * jerk, each axis its own",
-                  {},
-                  {},
-                  SeenBy::any_encoder};
+    Effect effect{
+        identity_of(EffectKind::servo_mismatch),
+        single ? "The axis follows its command with a delay"
+               : "Axes follow with a delay; different delays make circles ovals at 45 degrees",
+        single ? "gain of the position loop, no feed-forward; negative: commanded and "
+                 "actual positions exchanged, or the sign of the error"
+               : "different position-loop gains or feed-forward between axes; negative in "
+                 "a servo log: commanded and actual positions exchanged, or the sign of "
+                 "the error",
+        single ? "raise the loop gain, or switch on the feed-forward"
+               : "set the loop gains of all interpolating axes alike",
+        "position - tau_s * velocity - lag3_s3 * jerk, each axis its own",
+        {},
+        {},
+        SeenBy::any_encoder};
     add_parameters(effect, chain, "tau_", {"_s", "s", 0.25e-3});
     add_parameters(effect, chain, "lag3_", {"_s3", "s^3", 1.0e-6});
     effect.add = [axes = axes_of(chain)](const AxisSample& sample, const emulator::Contact&,

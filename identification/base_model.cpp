@@ -339,7 +339,7 @@ BaseModel fit_base(const setup::Setup& setup, const records::ReadingTable& table
         const auto k = static_cast<Eigen::Index>(j);
         model.parameters.push_back(
             fitted_parameter(slots[j], model.setup, typical(k) * fit.sigma(k)));
-        tell_absurd_location(model, model.parameters.back(), table);
+        tell_absurd_value(model, model.parameters.back(), table);
     }
     keep_sessions(model.setup, replay);
     model.models = effects::active_models(model.setup);

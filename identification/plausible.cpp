@@ -7,6 +7,7 @@
 
 #include "base/alarm.h"
 #include "base/rounded.h"
+#include "base/units.h"
 
 namespace trunnion::identification {
 namespace {
@@ -15,6 +16,7 @@ constexpr double absurd_mm = 5.0;  ///< limit of a plausible residual; beyond it
                                    ///< setup are wrong
 constexpr double absurd_rms_mm = 0.5;
 constexpr double absurd_rad = 0.03;  ///< of a location error
+constexpr double absurd_zero_rad = 0.5;
 /// Delay of a slow position loop: its following error at speed is large, and plausible.
 constexpr double longest_lag_s = 0.1;
 
@@ -27,7 +29,8 @@ void tell_absurd(BaseModel& model, bool meant, const std::string& what, const So
     model.notes.push_back(where.program + ": " + message + "; accepted");
 }
 
-/// Sizes of the residuals; those of a servo log as far as no lag of the axis explains them.
+/// Sizes of the residuals; those of a servo log as far as no lag of the axis explains them, beside
+/// the fitted zero of its encoder or none, because a lag at mostly one speed looks like a zero.
 Eigen::VectorXd without_lag(const BaseModel& model, const emulator::Replay& replay) {
     Eigen::VectorXd size = model.residual_mm.cwiseAbs();
     for (Eigen::Index i = 0; i < size.size(); ++i) {
@@ -35,7 +38,10 @@ Eigen::VectorXd without_lag(const BaseModel& model, const emulator::Replay& repl
         const emulator::Contact& contact = replay.contact(row);
         if (contact.device != records::Device::axis) continue;
         const double lag_mm = longest_lag_s * std::abs(replay.sample(row).velocity[contact.axis]);
-        size(i) = std::max(0.0, size(i) - lag_mm);
+        const std::size_t k = index_of(contact.axis);
+        const double zero = model.setup.encoder_zero[k] - replay.setup().encoder_zero[k];
+        const double least = std::min(size(i), std::abs(model.residual_mm(i) + zero));
+        size(i) = std::max(0.0, least - lag_mm);
     }
     return size;
 }
@@ -59,9 +65,29 @@ void tell_absurd_residuals(BaseModel& model, const emulator::Replay& replay,
                     {table.path, 0, 0});
 }
 
+namespace {
+
+/// A zero of an encoder may be large, where a log has machine positions beside those of a program,
+/// but it is more often a wrong column or unit.
+void tell_absurd_zero(BaseModel& model, const FitParameter& p, const records::ReadingTable& table) {
+    const bool angle = p.unit == "rad";
+    if (p.set_up.kind != SetUpQuantity::Kind::encoder ||
+        std::abs(p.value) <= (angle ? absurd_zero_rad : absurd_mm))
+        return;
+    tell_absurd(model, model.setup.model.allow_large,
+                fmt::format("{} beside the commanded position in all rows: {} {}",
+                            p.name.substr(0, p.name.find('.')),
+                            three_digits(angle ? deg_from_rad(p.value) : p.value.value()),
+                            angle ? "deg" : "mm"),
+                {table.path, 0, 0});
+}
+
+}  // namespace
+
 /// An implausible location error means that the setup describes another machine.
-void tell_absurd_location(BaseModel& model, const FitParameter& p,
-                          const records::ReadingTable& table) {
+void tell_absurd_value(BaseModel& model, const FitParameter& p,
+                       const records::ReadingTable& table) {
+    tell_absurd_zero(model, p, table);
     if (p.location && std::isfinite(p.sigma) &&
         std::abs(p.value) > (p.unit == "mm" ? absurd_mm : absurd_rad))
         tell_absurd(model, model.setup.model.allow_large,

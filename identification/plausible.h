@@ -10,8 +10,7 @@ namespace trunnion::identification {
 /// declared them as intended: by `allow_large` of the setup's model or by a `sigma_mm` of the row.
 void tell_absurd_residuals(BaseModel& model, const emulator::Replay& replay,
                            const records::ReadingTable& table);
-/// The same for a location error.
-void tell_absurd_location(BaseModel& model, const FitParameter& p,
-                          const records::ReadingTable& table);
+/// The same for a location error, and for the zero of an encoder.
+void tell_absurd_value(BaseModel& model, const FitParameter& p, const records::ReadingTable& table);
 
 }  // namespace trunnion::identification

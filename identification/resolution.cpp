@@ -29,6 +29,17 @@ int digits_of(const records::Reading& row, const emulator::Contact& contact) {
     return static_cast<int>(std::log10(std::max(1.0, row.angular ? deg_from_rad(at) : at)));
 }
 
+/// The digits that count: of the value; of a servo log of both positions, whose difference is often
+/// zero.
+void add_numbers(const records::Reading& row, const emulator::Contact& contact,
+                 std::vector<double>& values) {
+    const auto in_degrees = [&](double v) { return row.angular ? deg_from_rad(v) : v; };
+    if (row.device != records::Device::axis) return values.push_back(in_degrees(*row.value_mm));
+    const double commanded = row.commanded[contact.axis];
+    values.push_back(in_degrees(commanded));
+    values.push_back(in_degrees(commanded + *row.value_mm));
+}
+
 }  // namespace
 
 double decimal_step(const std::vector<double>& values) {
@@ -56,10 +67,8 @@ void add_rounding(const setup::Setup& setup, const records::ReadingTable& table,
     for (const auto& [of, rows] : alike) {
         const bool angular = table.rows[replay.table_row(rows.front())].angular;
         std::vector<double> values;
-        for (const std::size_t i : rows) {
-            const double value = *table.rows[replay.table_row(i)].value_mm;
-            values.push_back(angular ? deg_from_rad(value) : value);
-        }
+        for (const std::size_t i : rows)
+            add_numbers(table.rows[replay.table_row(i)], replay.contact(i), values);
         const double spread = spread_of(decimal_step(values));
         for (const std::size_t i : rows) {
             double& sigma = sigma_mm(static_cast<Eigen::Index>(i));

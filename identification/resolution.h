@@ -13,8 +13,9 @@ namespace trunnion::identification {
 double decimal_step(const std::vector<double>& values);
 
 /// Raises the standard deviation (mm, rad) of rows whose noise nobody states to 1 / sqrt(12) of the
-/// last digit of their values, in mm or degrees. Each device and feature has a digit of its own; of
-/// a servo log each number of digits before the decimal point, because logs keep so many digits.
+/// last digit of their values, in mm or degrees; of a servo log that of commanded and actual
+/// positions. Each device and feature has a digit of its own; of a servo log each number of digits
+/// before the decimal point, because logs keep so many digits.
 void add_rounding(const setup::Setup& setup, const records::ReadingTable& table,
                   const emulator::Replay& replay, Eigen::VectorXd& sigma_mm);
 

@@ -14,6 +14,8 @@
 namespace trunnion::setup {
 namespace {
 
+constexpr Axis linear_xyz[] = {Axis::X, Axis::Y, Axis::Z};
+
 /// Pivot parameters (19680-19714) and G54.2 groups that the file does not give are derived from the
 /// machine, as if the control knew its true geometry.
 void complete_pivot(Setup& setup, std::vector<std::string>& notes) {
@@ -21,8 +23,12 @@ void complete_pivot(Setup& setup, std::vector<std::string>& notes) {
     const auto given = parameters.entry;
     const std::string reason = derive_pivot_parameters(setup.machine, parameters);
     const auto axes = setup.machine.chain.axes();
+    // An axis alone, an arm or a telescope runs no NC program.
     const bool has_rotary = std::any_of(axes.begin(), axes.end(), [](auto& a) { return a.rotary; });
-    if (!reason.empty() && has_rotary && !given.contains(19680))
+    const bool mills = std::all_of(std::begin(linear_xyz), std::end(linear_xyz), [&](Axis axis) {
+        return setup.machine.chain.find(axis) != nullptr;
+    });
+    if (!reason.empty() && has_rotary && mills && !given.contains(19680))
         notes.push_back(setup.path + ": no pivot parameters 19680-19714: " + reason);
     const std::string alone = derive_parallel_axes(setup.machine, parameters);
     if (!alone.empty())
