@@ -320,6 +320,24 @@ std::vector<Offer> sharing(const Design& design, const ColumnGroup& own,
 
 }  // namespace
 
+namespace {
+
+/// True for a cause that takes back what the others do: the correction of a form that is not
+/// theirs. A small one may be against a large one by chance.
+bool works_against_others(const Design& design, const Model& model, const Sizes& sizes,
+                          std::size_t position) {
+    constexpr double by_chance = -0.3;  // cosine between both
+    if (sizes.along[position] > 0.0) return false;
+    const Eigen::VectorXd own = sizes.parts.col(static_cast<Eigen::Index>(position));
+    Eigen::VectorXd others = -own;
+    for (std::size_t k = 0; k < model.members.size(); ++k)
+        if (is_cause(design.group(model.members[k]).kind))
+            others += sizes.parts.col(static_cast<Eigen::Index>(k));
+    return own.dot(others) < by_chance * own.norm() * others.norm();
+}
+
+}  // namespace
+
 std::vector<Claim> claims_of(const Searching& search, const Model& model, const Sizes& sizes,
                              const HeldOutEvidence& heldout) {
     Design& design = search.design;
@@ -356,8 +374,8 @@ std::vector<Claim> claims_of(const Searching& search, const Model& model, const 
         const double seen_axis = std::min(seen, told.axis);
         claim.probability = std::min(probability_against(contender),
                                      told.axis > 0.0 ? seen_axis * told.cause / told.axis : 0.0);
-        // It works against the other causes: the correction of a form that is not theirs.
-        if (sizes.along[k] <= 0.0) claim.probability = std::min(claim.probability, doubtful);
+        if (works_against_others(design, model, sizes, k))
+            claim.probability = std::min(claim.probability, doubtful);
         name_rivals(design, worth[k], instead, claim);
         name_contender(design, model, contender, sizes.parts.col(static_cast<Eigen::Index>(k)),
                        claim);

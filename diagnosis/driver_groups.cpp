@@ -118,6 +118,16 @@ class DriverList {
         return list;
     }
 
+    /// A constant part would be a displacement, or the zero of an axis.
+    std::vector<RowFunction> without_mean(std::vector<RowFunction> list) const {
+        for (RowFunction& f : list) {
+            double mean = 0.0;
+            for (std::size_t i = 0; i < n(); ++i) mean += f(i) / static_cast<double>(n());
+            f = [of = std::move(f), mean](std::size_t i) { return of(i) - mean; };
+        }
+        return list;
+    }
+
     /// The positions of an axis that moves; empty where its readings cannot show a dependence.
     struct Travel {
         Axis axis = Axis::X;
@@ -237,7 +247,7 @@ class DriverList {
         // Without a clock, in one sweep, the order of the readings is the position of the axis.
         const bool told = records::has_times(table_);
         if (end - start > 60.0 && (told || !is_one_sweep())) {
-            auto functions = smooth(t, start, end, false, 6);
+            auto functions = without_mean(smooth(t, start, end, false, 6));
             add("time", "machine frame",
                 told ? "drifts with time" : "changes in the order of the readings", functions,
                 machine_axes());

@@ -74,6 +74,28 @@ void hide_from_encoders(Effect& effect) {
 
 }  // namespace
 
+namespace {
+
+/// Of a machine the spindle; of an arm the mean of its targets, or without one its last axis.
+CarriedTool carried_tool(const setup::Setup& setup) {
+    CarriedTool tool;
+    if (!setup::is_arm(setup.machine.chain)) return tool;
+    Vector3 sum_mm = Vector3::Zero();
+    double count = 0.0;
+    for (const setup::Artefact& target : setup.artefacts) {
+        if (!target.tool_S_mm) continue;
+        sum_mm += setup.target_S_mm(target);
+        count += 1.0;
+    }
+    const Vector3 last_mm = setup.machine.chain.tool.back().point_mm;
+    tool.centre_S_mm = count > 0.0 ? Vector3(sum_mm / count) : last_mm;
+    if (const Vector3 reach_mm = tool.centre_S_mm - last_mm; reach_mm.norm() > 1e-6)
+        tool.along_S = reach_mm.normalized();
+    return tool;
+}
+
+}  // namespace
+
 Catalogue make_catalogue(const setup::Setup& setup, const DataExtent& extent) {
     const kinematics::Chain& chain = setup.machine.chain;
     const bool basic = has_basic_axes(chain);
@@ -104,9 +126,10 @@ Catalogue make_catalogue(const setup::Setup& setup, const DataExtent& extent) {
     list.push_back(sensor_gain());
     if (std::any_of(chain.tool.begin(), chain.tool.end(),
                     [](const kinematics::AxisGeometry& axis) { return axis.rotary; })) {
-        list.push_back(gravity_tool(chain));
+        const CarriedTool tool = carried_tool(setup);
+        list.push_back(gravity_tool(chain, tool));
         list.push_back(chain_collimation(chain));
-        list.push_back(chain_flexure(chain));
+        list.push_back(chain_flexure(chain, tool));
     }
     for (Effect& effect : list) hide_from_encoders(effect);
     return list;

@@ -12,6 +12,11 @@ struct DataExtent {
     std::vector<std::vector<double>> times_s;  ///< times of the rows of each artefact, rising
 };
 
+/// What the last axis of the tool side carries: where its weight acts, and where it points to.
+struct CarriedTool {
+    Vector3 centre_S_mm = Vector3::Zero(), along_S = -Vector3::UnitZ();
+};
+
 Effect location_effect(const kinematics::Chain& chain);
 Effect rotary_zero(const kinematics::AxisGeometry& axis);
 Effect rotary_positioning(const kinematics::AxisGeometry& axis);
@@ -48,9 +53,9 @@ Effect clamp_shift(const kinematics::Chain& chain);
 Effect linear_play_load(const kinematics::AxisGeometry& axis);
 Effect sensor_gain();
 /// Three effects of chains with a rotary axis on the tool side (required there).
-Effect gravity_tool(const kinematics::Chain& chain);
+Effect gravity_tool(const kinematics::Chain& chain, const CarriedTool& tool);
 Effect chain_collimation(const kinematics::Chain& chain);
-Effect chain_flexure(const kinematics::Chain& chain);
+Effect chain_flexure(const kinematics::Chain& chain, const CarriedTool& tool);
 Effect pivot_g54(const kinematics::Chain& chain);
 Effect pivot_p1970x(const kinematics::Chain& chain);
 

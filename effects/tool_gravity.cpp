@@ -13,8 +13,9 @@ struct CarriedAxis {
     Vector3 direction_M, point_M_mm;
 };
 
-/// All tool-side axes, from the bed outwards, and finally the origin of S.
-std::vector<CarriedAxis> carried(const kinematics::Chain& chain, const AxisSample& sample) {
+/// All tool-side axes, from the bed outwards, and finally what the last one carries.
+std::vector<CarriedAxis> carried(const kinematics::Chain& chain, const CarriedTool& tool,
+                                 const AxisSample& sample) {
     std::vector<CarriedAxis> list;
     Pose pose;
     for (const kinematics::AxisGeometry& axis : chain.tool) {
@@ -23,7 +24,7 @@ std::vector<CarriedAxis> carried(const kinematics::Chain& chain, const AxisSampl
         pose = pose * (axis.rotary ? Pose::turn(axis.direction, axis.point_mm, q)
                                    : Pose::shift(q * axis.direction));
     }
-    list.push_back({{}, pose.rotation, Vector3::UnitZ(), pose.translation_mm});
+    list.push_back({{}, pose.rotation, pose.rotation * tool.along_S, pose * tool.centre_S_mm});
     return list;
 }
 
@@ -36,7 +37,7 @@ std::vector<kinematics::AxisGeometry> rotary_of(const std::vector<kinematics::Ax
 
 /// Mean horizontal lever (m) of the carried parts, with the sign of the rotation caused by their
 /// weight. The masses are represented by points of the following rotary axes; for the last axis by
-/// the origin of S.
+/// the tool.
 double lever_m(const std::vector<CarriedAxis>& list, std::size_t k) {
     double sum = 0.0, count = 0.0;
     const auto add = [&](const Vector3& mass_M_mm) {
@@ -58,22 +59,22 @@ std::pair<Vector3, Vector3> across(const Vector3& direction) {
 
 }  // namespace
 
-Effect gravity_tool(const kinematics::Chain& chain) {
+Effect gravity_tool(const kinematics::Chain& chain, const CarriedTool& tool) {
     const auto rotary = rotary_of(chain.tool);
     Effect effect{identity_of(EffectKind::gravity_tool),
                   "Joints of the tool side give way under the weight that they carry",
                   "elastic gears and links of a head or an arm, heavy tool",
                   "compensate by the posture; counterbalance, or stiffen the joint",
                   "angle of R + twist_R_rad * lever (m): mean horizontal lever of the rotary axes "
-                  "behind R (of the last one: of the spindle)",
+                  "behind R (of the last one: of the spindle, or of an arm's target)",
                   {},
                   {}};
     for (const kinematics::AxisGeometry& axis : rotary)
         effect.parameters.push_back(
             {axis_parameter("twist_", axis, "_rad"), "rad", 100e-6, -1, {}, true});
-    effect.add = [chain](const AxisSample& sample, const emulator::Contact&,
-                         std::span<const double> value, kinematics::Perturbation& out) {
-        const std::vector<CarriedAxis> list = carried(chain, sample);
+    effect.add = [chain, tool](const AxisSample& sample, const emulator::Contact&,
+                               std::span<const double> value, kinematics::Perturbation& out) {
+        const std::vector<CarriedAxis> list = carried(chain, tool, sample);
         std::size_t j = 0;
         for (std::size_t k = 0; k + 1 < list.size(); ++k) {
             if (!list[k].axis.rotary) continue;
@@ -102,25 +103,27 @@ Effect chain_collimation(const kinematics::Chain& chain) {
             }};
 }
 
-Effect chain_flexure(const kinematics::Chain& chain) {
-    return {identity_of(EffectKind::chain_flexure),
-            "The head bows towards the ground where it reaches out",
-            "weight of head, tube or spindle beyond its last axis",
-            "compensate by the angle to the plumb line; balance or stiffen the head",
-            "what the last rotary axis of the tool side carries tilts by droop_rad * n x g; n: "
-            "from the spindle to the tool, g: downwards, unit vectors",
-            {{"droop_rad", "rad", 50e-6, -1, {}, true}},
-            [chain](const AxisSample& sample, const emulator::Contact&,
-                    std::span<const double> value, kinematics::Perturbation& out) {
-                const std::vector<CarriedAxis> list = carried(chain, sample);
-                const Vector3 tool_M = -(list.back().carrier_M * Vector3::UnitZ());
-                for (std::size_t k = list.size() - 1; k-- > 0;) {
-                    if (!list[k].axis.rotary) continue;
-                    out.motion[index_of(list[k].axis.axis)].tilt_rad +=
-                        value[0] * list[k].carrier_M.transpose() * tool_M.cross(-Vector3::UnitZ());
-                    return;
-                }
-            }};
+Effect chain_flexure(const kinematics::Chain& chain, const CarriedTool& tool) {
+    return {
+        identity_of(EffectKind::chain_flexure),
+        "The head bows towards the ground where it reaches out",
+        "weight of head, tube or spindle beyond its last axis",
+        "compensate by the angle to the plumb line; balance or stiffen the head",
+        "what the last rotary axis of the tool side carries tilts by droop_rad * n x g; n: "
+        "from the spindle to the tool, of an arm from its last axis to the target; g: downwards, "
+        "unit vectors",
+        {{"droop_rad", "rad", 50e-6, -1, {}, true}},
+        [chain, tool](const AxisSample& sample, const emulator::Contact&,
+                      std::span<const double> value, kinematics::Perturbation& out) {
+            const std::vector<CarriedAxis> list = carried(chain, tool, sample);
+            const Vector3& tool_M = list.back().direction_M;
+            for (std::size_t k = list.size() - 1; k-- > 0;) {
+                if (!list[k].axis.rotary) continue;
+                out.motion[index_of(list[k].axis.axis)].tilt_rad +=
+                    value[0] * list[k].carrier_M.transpose() * tool_M.cross(-Vector3::UnitZ());
+                return;
+            }
+        }};
 }
 
 }  // namespace trunnion::effects

@@ -85,7 +85,8 @@ void take_plain(const TextTable& table, std::size_t k, const Facts& facts, AxisC
     const std::string& name = table.columns()[k].name;
     const bool actual =
         columns.commanded && !columns.actual && !columns.error && !log.block && says_position(name);
-    if (!actual && (columns.commanded || !(columns.actual || columns.error || log.block))) {
+    // A position beside errors of other kinds is where the axis stood.
+    if (!actual && columns.commanded) {
         log.unused.push_back(name);
         return;
     }

@@ -77,12 +77,15 @@ class Mount {
     std::vector<bool> on_work_;
 };
 
-/// Rows of one line of the table; false if one of its values is missing.
-bool write_line(const TextTable& table, std::size_t i, const Mount& mount, records::Reading row,
-                RowWriter& rows) {
-    std::vector<records::TableCell> cells;
-    table.read(i, cells);
+/// Rows of one line of the table; false if one of its values is missing. An axis that is not read
+/// carries the others at its position.
+bool write_line(const LineCells& line, const LogColumns& log, const Mount& mount,
+                records::Reading row, RowWriter& rows) {
+    const auto& [table, i, cells] = line;
     std::vector<double> errors_rad;
+    for (const AxisColumns& axis : log.axes)
+        if (const auto q = number_or_none(table, i, cells, axis.commanded))
+            row.commanded[axis.axis] = *q;
     for (const AxisColumns& axis : mount.axes()) {
         const auto entry = log_entry(table, i, cells, axis);
         if (!entry) return false;
@@ -122,7 +125,7 @@ void import_sights(const TextTable& table, const ImportRequest& request, RowWrit
         table.read(i, cells);
         row.time_s = time.time_s(table, i, cells);
         if (log.session) row.session = cells[*log.session].plain();
-        missing += write_line(table, i, mount, row, rows) ? 0 : 1;
+        missing += write_line({table, i, cells}, log, mount, row, rows) ? 0 : 1;
     }
     result.summary.push_back(fmt::format(
         "{}: pointing of {}, {} lines, {} readings, {}; {}", table.path(), axes_words(log),

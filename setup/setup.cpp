@@ -90,16 +90,11 @@ Vector3 Instrument::read_mm(const Vector3& p_M_mm) const {
     return pose_error.shift_mm + rotation_of(pose_error.tilt_rad) * p_I_mm;
 }
 
-namespace {
-
-/// True when the machine has no X, Y or Z axis: its flange is positioned by other axes.
 bool is_arm(const kinematics::Chain& chain) {
     const AxisNames names = chain.names();
     return !names.find("X") && !names.find("Y") && !names.find("Z") && !chain.tool.empty() &&
            chain.tool.back().rotary;
 }
-
-}  // namespace
 
 Vector3 Setup::target_S_mm(const Artefact& target) const {
     const Vector3 from =

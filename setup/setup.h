@@ -128,6 +128,9 @@ struct SessionValues {
                                            ///< "CMM.a_rad"
 };
 
+/// True when the machine has no X, Y or Z axis: its flange is positioned by other axes.
+bool is_arm(const kinematics::Chain& chain);
+
 struct Setup {
     std::string name;
     std::string path;  ///< path of the file, for messages

@@ -94,4 +94,26 @@ TEST_CASE("a servo log of three digits: the sigma is that of the digits, and the
     CHECK(identification::row_noise(stated, table, replay).sigma_mm.maxCoeff() == 0.003);
 }
 
+TEST_CASE("a log whose positions are mostly equal has their digits all the same",
+          "[identification]") {
+    records::ReadingTable table = log();
+    for (records::Reading& row : table.rows) {
+        row.commanded[Axis::X] = 200.0 + row.index % 7;
+        row.value_mm = 0.0;
+    }
+    const emulator::Replay replay(machine(), table);
+    const auto noise = identification::row_noise(machine(), table, replay);
+    CHECK(noise.sigma_mm.minCoeff() == Approx(1.0 / std::sqrt(12.0)));
+}
+
+TEST_CASE("actual positions in another unit or of another column are refused", "[identification]") {
+    records::ReadingTable table = log();
+    for (records::Reading& row : table.rows) *row.value_mm += 20.0;
+    CHECK_THROWS_WITH(identification::identify(machine(), table, {}),
+                      Catch::Contains("X beside the commanded position in all rows: 20.0 mm"));
+    setup::Setup meant = machine();
+    meant.model.allow_large = true;
+    CHECK(identification::identify(meant, table, {}).set_up_words.size() == 1);
+}
+
 }  // namespace trunnion
