@@ -323,11 +323,12 @@ std::vector<Offer> sharing(const Design& design, const ColumnGroup& own,
 namespace {
 
 /// True for a cause that takes back what the others do: the correction of a form that is not
-/// theirs. A small one may be against a large one by chance.
+/// theirs. A small one of known form may be against a large one by chance.
 bool works_against_others(const Design& design, const Model& model, const Sizes& sizes,
                           std::size_t position) {
     constexpr double by_chance = -0.3;  // cosine between both
     if (sizes.along[position] > 0.0) return false;
+    if (design.group(model.members[position]).kind == GroupKind::table) return true;
     const Eigen::VectorXd own = sizes.parts.col(static_cast<Eigen::Index>(position));
     Eigen::VectorXd others = -own;
     for (std::size_t k = 0; k < model.members.size(); ++k)
