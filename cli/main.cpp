@@ -274,7 +274,7 @@ void note_missing_memory() {
 }
 
 /// Matrices of a few megabytes are allocated and freed all the time. Without this glibc takes each
-/// of them from the kernel anew, page by page, a sixth of the time of `diagnose`.
+/// of them from the kernel anew, page by page, a fifth of the time of `diagnose`.
 void keep_freed_memory() {
 #ifdef __GLIBC__
     constexpr int megabyte = 1 << 20;

@@ -318,10 +318,6 @@ std::vector<Offer> sharing(const Design& design, const ColumnGroup& own,
     return all;
 }
 
-}  // namespace
-
-namespace {
-
 /// True for a cause that takes back what the others do: the correction of a form that is not
 /// theirs. A small one of known form may be against a large one by chance.
 bool works_against_others(const Design& design, const Model& model, const Sizes& sizes,

@@ -204,8 +204,10 @@ class DriverList {
             };
             constexpr int few = 3;  // a first row of unknown side is no second direction
             int forward = 0, back = 0;
-            for (std::size_t i = 0; i < n(); ++i)
-                (sign(i) > 0.0 ? forward : back) += sign(i) != 0.0;
+            for (std::size_t i = 0; i < n(); ++i) {
+                if (sign(i) > 0.0) ++forward;
+                if (sign(i) < 0.0) ++back;
+            }
             if (std::min(forward, back) < few) continue;
             const std::string& name = table_.names[axis];
             const RowFunction since = [this, axis, sign](std::size_t i) {

@@ -263,7 +263,10 @@ bool holds_when_read(const Outcome& f, const Model& model, const setup::Setup& s
         if (is_cause(f.design.group(model.members[k]).kind))
             left -= f.design.combined(model.members[k],
                                       solution.mean.segment(solution.first[k], solution.size[k]));
-    left.head(bend.size()) += bend.cwiseQuotient(p.base.sigma_mm);
+    for (Eigen::Index i = 0; i < bend.size(); ++i) {
+        const records::Device device = p.replay.contact(static_cast<std::size_t>(i)).device;
+        left(i) += bend(i) / (f.noise.model.of(device).scale * p.base.sigma_mm(i));
+    }
     return left.squaredNorm() < f.design.projection().beside(f.design.data()).squaredNorm();
 }
 
@@ -277,8 +280,8 @@ bool has_changes(const Outcome& f, const Model& model) {
 Written written_setup(const Outcome& f) {
     Written w;
     w.model = {{}, {{}, f.model.variances.nu}, 0.0};
-    const Model none = without_causes(f);
     if (f.judgement.gap && f.judgement.part > 0.0) {
+        const Model none = without_causes(f);
         const Folds paths = path_folds(f.prepared.blocks, f.prepared.replay, f.prepared.table.axes);
         w.model = none;
         choose(f, paths, w);

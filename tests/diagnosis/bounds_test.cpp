@@ -7,21 +7,11 @@
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/ripples.h"
 #include "tests/support/campaign.h"
+#include "tests/support/diagnosed.h"
 #include "tests/support/said.h"
 
 namespace trunnion {
 namespace {
-
-diagnosis::Diagnosis diagnosed(const setup::Setup& setup, const records::ReadingTable& table) {
-    diagnosis::DiagnosisOptions options;
-    options.plan_next = false;
-    return diagnosis::diagnose(setup, table, options);
-}
-
-bool claims(const diagnosis::Diagnosis& d, const std::string& effect) {
-    return std::any_of(d.causes.begin(), d.causes.end(),
-                       [&](const diagnosis::Cause& c) { return c.effect == effect; });
-}
 
 double value_of(const diagnosis::Cause& cause, const std::string& name) {
     for (const identification::FitParameter& p : cause.parameters)

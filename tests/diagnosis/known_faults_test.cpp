@@ -5,6 +5,7 @@
 
 #include "diagnosis/diagnosis.h"
 #include "tests/support/campaign.h"
+#include "tests/support/diagnosed.h"
 #include "tests/support/said.h"
 
 namespace trunnion {
@@ -14,12 +15,6 @@ const diagnosis::Cause* claim_of(const diagnosis::Diagnosis& d, const std::strin
     const auto at = std::find_if(d.causes.begin(), d.causes.end(),
                                  [&](const diagnosis::Cause& c) { return c.effect == effect; });
     return at == d.causes.end() ? nullptr : &*at;
-}
-
-diagnosis::Diagnosis diagnosed(const setup::Setup& setup, const records::ReadingTable& table) {
-    diagnosis::DiagnosisOptions options;
-    options.plan_next = false;
-    return diagnosis::diagnose(setup, table, options);
 }
 
 records::ReadingTable map_and_passes(const setup::Setup& setup) {

@@ -10,6 +10,7 @@
 #include "effects/settings.h"
 #include "emulator/replay.h"
 #include "setup/setup.h"
+#include "tests/support/diagnosed.h"
 
 namespace trunnion {
 namespace {
@@ -97,20 +98,6 @@ std::string said(const diagnosis::Diagnosis& d) {
     return text;
 }
 
-/// Standard deviation of readings beside the prediction of a setup, mm; its zero is free.
-double left_mm(const setup::Setup& setup, const records::ReadingTable& table) {
-    const emulator::Replay replay(setup, table);
-    const std::vector<double> predicted = replay.predict(effects::active_models(setup));
-    double sum = 0.0, square = 0.0;
-    for (std::size_t i = 0; i < predicted.size(); ++i) {
-        const double left = *table.rows[replay.table_row(i)].value_mm - predicted[i];
-        sum += left;
-        square += left * left;
-    }
-    const auto n = static_cast<double>(predicted.size());
-    return std::sqrt(square / n - sum * sum / n / n);
-}
-
 }  // namespace
 
 TEST_CASE("an error that changes from target to target is a table, and the backlash stays",
@@ -130,12 +117,12 @@ TEST_CASE("an error that changes from target to target is a table, and the backl
         CHECK_FALSE(d.between_places);
 
         // At its places the written setup is right, also for a later test with another zero ...
-        CHECK(left_mm(d.setup, laser(truth, 3, 99, 0.5)) < 1.15 * truth.noise_mm);
+        CHECK(left_beside(d.setup, laser(truth, 3, 99, 0.5)) < 1.15 * truth.noise_mm);
         // ... between them it contains the backlash alone.
         Truth between = truth;
         for (double& at_mm : between.at_mm) at_mm += 2.5;
         for (double& error_mm : between.error_mm) error_mm = 0.0;
-        CHECK(left_mm(d.setup, laser(between, 3, 98)) < 1.15 * truth.noise_mm);
+        CHECK(left_beside(d.setup, laser(between, 3, 98)) < 1.15 * truth.noise_mm);
     }
 }
 
@@ -177,7 +164,7 @@ TEST_CASE("a bow seen at three targets is a table beside the scale", "[diagnosis
     CHECK(cause(d, "X.positioning", true));
     REQUIRE(cause(d, "X.backlash", false));
     CHECK(cause(d, "X.backlash", false)->parameters.front().value == Approx(0.0038).margin(4e-4));
-    CHECK(left_mm(d.setup, laser(truth, 10, 9)) < 1.2 * truth.noise_mm);
+    CHECK(left_beside(d.setup, laser(truth, 10, 9)) < 1.2 * truth.noise_mm);
 }
 
 TEST_CASE("a machine that wanders has a gap, though nothing predicts it", "[diagnosis][stage]") {
@@ -218,7 +205,7 @@ TEST_CASE("a table without interpolation is written and read again", "[diagnosis
     const setup::Setup again =
         setup::parse_setup(setup::format_setup(d.setup), "again.toml", notes);
     const records::ReadingTable later = laser(truth, 2, 20);
-    CHECK(left_mm(again, later) == Approx(left_mm(d.setup, later)).epsilon(1e-9));
+    CHECK(left_beside(again, later) == Approx(left_beside(d.setup, later)).epsilon(1e-9));
     CHECK(setup::format_setup(d.setup).find("interpolation = \"none\"") != std::string::npos);
 }
 

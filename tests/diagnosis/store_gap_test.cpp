@@ -7,6 +7,7 @@
 
 #include "emulator/replay.h"
 #include "tests/support/campaign.h"
+#include "tests/support/diagnosed.h"
 
 namespace trunnion {
 namespace {
@@ -69,12 +70,6 @@ records::ReadingTable logged(const setup::Setup& setup, const Stores& stores,
 
 records::ReadingTable logged(const setup::Setup& setup, const Stores& stores) {
     return logged(setup, stores, setup);
-}
-
-diagnosis::Diagnosis diagnosed(const setup::Setup& setup, const records::ReadingTable& table) {
-    diagnosis::DiagnosisOptions options;
-    options.plan_next = false;
-    return diagnosis::diagnose(setup, table, options);
 }
 
 double value_of(const diagnosis::Cause& cause, const std::string& name, int component = -1) {
