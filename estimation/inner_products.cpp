@@ -37,44 +37,48 @@ inline __attribute__((always_inline)) void add_one(const double* a, const double
     out += sum_of(sum) + rest;
 }
 
-/// The same for four columns with two.
+/// The same for four columns with two; `Part` is as many of the lanes as eight sums of them, four
+/// factors more beside, have place in the registers.
+template <class Part>
 inline __attribute__((always_inline)) void add_eight(Columns a, Columns b, Index count, double* out,
                                                      Index out_stride) {
-    Lanes s00{}, s10{}, s20{}, s30{}, s01{}, s11{}, s21{}, s31{}, x{}, y0{}, y1{};
     const double *a0 = a.at(0), *a1 = a.at(1), *a2 = a.at(2), *a3 = a.at(3);
     const double *b0 = b.at(0), *b1 = b.at(1);
-    Index k = 0;
-    for (; k + lanes <= count; k += lanes) {
-        load(b0 + k, y0);
-        load(b1 + k, y1);
-        load(a0 + k, x);
-        s00 += x * y0;
-        s01 += x * y1;
-        load(a1 + k, x);
-        s10 += x * y0;
-        s11 += x * y1;
-        load(a2 + k, x);
-        s20 += x * y0;
-        s21 += x * y1;
-        load(a3 + k, x);
-        s30 += x * y0;
-        s31 += x * y1;
+    const Index whole = count / lanes * lanes;
+    Lanes sums[tall * broad];
+    constexpr Index part = sizeof(Part) / sizeof(double);
+    for (Index from = 0; from < lanes; from += part) {
+        Part s00{}, s10{}, s20{}, s30{}, s01{}, s11{}, s21{}, s31{}, x{}, y0{}, y1{};
+        for (Index k = from; k < whole; k += lanes) {
+            load(b0 + k, y0);
+            load(b1 + k, y1);
+            load(a0 + k, x);
+            s00 += x * y0;
+            s01 += x * y1;
+            load(a1 + k, x);
+            s10 += x * y0;
+            s11 += x * y1;
+            load(a2 + k, x);
+            s20 += x * y0;
+            s21 += x * y1;
+            load(a3 + k, x);
+            s30 += x * y0;
+            s31 += x * y1;
+        }
+        const Part parts[tall * broad] = {s00, s10, s20, s30, s01, s11, s21, s31};
+        for (Index n = 0; n < tall * broad; ++n)
+            std::memcpy(reinterpret_cast<char*>(&sums[n]) + from * sizeof(double), &parts[n],
+                        sizeof(Part));
     }
     double rest[tall * broad] = {};
-    for (; k < count; ++k)
+    for (Index k = whole; k < count; ++k)
         for (Index i = 0; i < tall; ++i) {
             rest[i] += a.at(i)[k] * b0[k];
             rest[tall + i] += a.at(i)[k] * b1[k];
         }
-    double* second = out + out_stride;
-    out[0] += sum_of(s00) + rest[0];
-    out[1] += sum_of(s10) + rest[1];
-    out[2] += sum_of(s20) + rest[2];
-    out[3] += sum_of(s30) + rest[3];
-    second[0] += sum_of(s01) + rest[4];
-    second[1] += sum_of(s11) + rest[5];
-    second[2] += sum_of(s21) + rest[6];
-    second[3] += sum_of(s31) + rest[7];
+    for (Index j = 0; j < broad; ++j)
+        for (Index i = 0; i < tall; ++i)
+            out[i + j * out_stride] += sum_of(sums[i + j * tall]) + rest[i + j * tall];
 }
 
 /// What is known of the factors.
@@ -90,6 +94,7 @@ struct Range {
 };
 
 /// out(i, j) += sum over some rows.
+template <class Part>
 inline __attribute__((always_inline)) void add_rows(Columns a, Columns b, const Shape& shape,
                                                     Range rows, double* out) {
     const auto rows_of = [&](Index last_column) {
@@ -108,7 +113,7 @@ inline __attribute__((always_inline)) void add_rows(Columns a, Columns b, const 
             double* to = out + i + j * shape.a_columns;
             const Index used = rows_of(i + high - 1);
             if (high == tall && wide == broad) {
-                add_eight(own, other, used, to, shape.a_columns);
+                add_eight<Part>(own, other, used, to, shape.a_columns);
                 continue;
             }
             for (Index q = 0; q < wide; ++q)
@@ -119,8 +124,14 @@ inline __attribute__((always_inline)) void add_rows(Columns a, Columns b, const 
 }
 
 TRUNNION_WIDE_VECTORS void multiply(Columns a, Columns b, const Shape& shape, double* out) {
-    for (Index k = 0; k < shape.rows; k += in_cache)
-        add_rows(a, b, shape, {k, std::min(in_cache, shape.rows - k)}, out);
+    const bool all_at_once = has_widest_vectors();
+    for (Index k = 0; k < shape.rows; k += in_cache) {
+        const Range rows{k, std::min(in_cache, shape.rows - k)};
+        if (all_at_once)
+            add_rows<Lanes>(a, b, shape, rows, out);
+        else
+            add_rows<HalfLanes>(a, b, shape, rows, out);
+    }
 }
 
 Eigen::MatrixXd product(const Eigen::Ref<const Eigen::MatrixXd>& a,

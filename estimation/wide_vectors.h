@@ -21,8 +21,19 @@ namespace trunnion::estimation {
 
 constexpr int lanes = 8;
 using Lanes [[gnu::vector_size(lanes * sizeof(double))]] = double;
+using HalfLanes [[gnu::vector_size(lanes / 2 * sizeof(double))]] = double;
 
-inline __attribute__((always_inline)) void load(const double* from, Lanes& to) {
+/// Does one register hold all lanes? Where not, sums of half of them at a time stay in registers.
+inline bool has_widest_vectors() {
+#if defined(__x86_64__)
+    return __builtin_cpu_supports("avx512f");
+#else
+    return false;
+#endif
+}
+
+template <class Part>
+inline __attribute__((always_inline)) void load(const double* from, Part& to) {
     std::memcpy(&to, from, sizeof to);
 }
 
