@@ -331,17 +331,20 @@ std::vector<GroupInformation> each_beside_others(const GroupEquations& equations
 
 BestVariances maximise_likelihood(const GroupEquations& equations, Variances start,
                                   const NoisePrior& prior, int sweeps) {
+    constexpr int most_sweeps = 30;
+    constexpr double far = 2.0;  // from the maximum: another sweep may change which model is best
     Step now(equations, not_absent(std::move(start)), prior);
-    for (int k = 0; k < sweeps; ++k) {
+    double last = 0.0;
+    for (int k = 0; k < sweeps || (last > far && k < most_sweeps); ++k) {
         Step next = one_sweep(equations, now, prior);
         // Written so that a likelihood that cannot be computed (NaN) is a worse one.
         const auto worse = [&] { return !(next.likelihood >= now.likelihood); };
         for (int halved = 0; worse() && halved < 4; ++halved)
             next = Step(equations, between(now.variances, std::move(next.variances)), prior);
         if (worse()) break;
-        const double gained = next.likelihood - now.likelihood;
+        last = next.likelihood - now.likelihood;
         now = std::move(next);
-        if (gained < 0.01) break;
+        if (last < 0.01) break;
     }
     return {std::move(now.variances), now.likelihood};
 }
