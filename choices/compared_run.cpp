@@ -14,14 +14,19 @@ ComparedRun Comparer::compared(ControlPath path) const {
     return out;
 }
 
-bool same_way(const ControlPath& a, const ControlPath& b) {
+namespace {
+
+bool is_same(const PathNode& p, const PathNode& q) {
     constexpr double same = 1e-7;
-    return std::equal(a.nodes.begin(), a.nodes.end(), b.nodes.begin(), b.nodes.end(),
-                      [](const PathNode& p, const PathNode& q) {
-                          for (std::size_t i = 0; i < axis_count; ++i)
-                              if (!(std::abs(p.at.value[i] - q.at.value[i]) <= same)) return false;
-                          return true;
-                      });
+    for (std::size_t i = 0; i < axis_count; ++i)
+        if (!(std::abs(p.at.value[i] - q.at.value[i]) <= same)) return false;
+    return true;
+}
+
+}  // namespace
+
+bool same_way(const ControlPath& a, const ControlPath& b) {
+    return std::equal(a.nodes.begin(), a.nodes.end(), b.nodes.begin(), b.nodes.end(), is_same);
 }
 
 double sum_of(const std::vector<double>& values) {

@@ -20,6 +20,8 @@ class Comparer {
         : log_(log), program_(program), programs_(programs), options_(options) {}
 
     const LogView& log() const { return log_; }
+    /// The same program with another log, which must outlive the result.
+    Comparer on(const LogView& log) const { return {log, program_, programs_, options_}; }
     ControlPath path(const setup::Setup& setup) const {
         return path_of(setup, program_, programs_, options_);
     }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 
 #include "base/random.h"
 #include "choices/folds.h"
@@ -23,6 +24,19 @@ constexpr double quiet_worst = 6.0;  ///< and the largest distance, in sigma
 constexpr double explained_from = 0.8, partly_from = 0.5;
 constexpr double least_left = 0.005;  ///< of the gap: minimum for a block listed as remaining
 constexpr int draws = 400;
+constexpr double only_one_block = 2.0 / 3.0;  ///< most that a single block can prove
+constexpr double claimed = 0.5;
+constexpr double least_told_mm = 0.01;
+constexpr double chance =
+    1e-6;  ///< p of a small excess over the noise that is searched all the same
+constexpr double quite_sure = 0.8;
+constexpr std::size_t least_differences = 10;  ///< of rows, for their scatter
+constexpr double median_of_square = 0.7;       ///< of a normal variable in two or three directions
+constexpr double visible = 9.0;                ///< loss of an axis: a row beyond it shows a gap
+constexpr double far_smaller = 1e-4;           ///< of a row's loss: what an effect beside may leave
+constexpr double most_scatter = 0.05;          ///< of the gap: a larger scatter is no noise
+constexpr double all_rows = 0.95;              ///< part of the rows that an explanation reaches
+constexpr double surely_more = 1e-9;           ///< p of a mean that no noise has
 
 double um(double mm) {
     return 1000.0 * mm;
@@ -175,6 +189,31 @@ class Teller {
     const std::vector<int>& blocks_;
 };
 
+/// Scatter of the samples about the path, from one row of a block to the next: a constant
+/// difference is none. Nothing without enough such rows.
+std::optional<double> scatter_about(const LogView& view, const ComparedRun& run,
+                                    const std::vector<int>& blocks) {
+    std::vector<const Pair*> at(view.rows.size(), nullptr);
+    for (const Pair& pair : run.pairs) at[pair.row] = &pair;
+    std::vector<double> squares;
+    for (std::size_t row = 1; row < at.size(); ++row) {
+        if (!at[row] || !at[row - 1] || blocks[row] != blocks[row - 1]) continue;
+        // A sample that slides along its segment has no difference in that direction.
+        const bool slides = at[row]->slides && at[row - 1]->slides;
+        const double axes = static_cast<double>(view.axes.size()) - (slides ? 1.0 : 0.0);
+        double sum = 0.0;
+        for (const Axis axis : view.axes) {
+            const double d = at[row]->apart[axis] - at[row - 1]->apart[axis];
+            sum += d * d;
+        }
+        if (axes > 0.0) squares.push_back(sum / (2.0 * axes));
+    }
+    if (squares.size() < least_differences) return std::nullopt;
+    const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
+    std::nth_element(squares.begin(), middle, squares.end());
+    return std::sqrt(*middle / median_of_square);
+}
+
 bool is_quiet(const LogOfProgram& log, const ComparedRun& run, double noise_loss) {
     double worst = 0.0;
     for (const double loss : run.losses) worst = std::max(worst, loss);
@@ -195,7 +234,49 @@ struct Judged {
     const Teller& teller;
     const std::vector<int>& blocks;
     double loss_before;
+    double row_limit;  ///< loss of a row that noise may have
 };
+
+/// Part of the rows with a visible gap that an explanation brings down to noise, or to far less. An
+/// exact cause spoils no row: such a row counts as several.
+double reached(const std::vector<double>& before, const std::vector<double>& after,
+               double row_limit) {
+    constexpr double spoiled_rows = 5.0;
+    double rows = 0.0, good = 0.0;
+    for (std::size_t row = 0; row < before.size(); ++row) {
+        const bool fits = after[row] <= std::max(row_limit, far_smaller * before[row]);
+        if (before[row] > row_limit) {
+            ++rows;
+            good += fits ? 1.0 : 0.0;
+        } else if (!fits) {
+            rows += spoiled_rows;
+        }
+    }
+    return rows > 0.0 ? good / rows : 1.0;
+}
+
+/// Loss of a row that noise may have. Noise that nobody stated may be larger than the printed
+/// increment: then it is what the rows scatter from one to the next beside the explanation.
+double row_limit_of(const LogOfProgram& log, const ComparedRun& base, const ComparedRun& explained,
+                    const std::vector<int>& blocks, double gap) {
+    const double axes = static_cast<double>(log.view.axes.size());
+    double ratio = 1.0;
+    if (log.noise != LogNoise::given) {
+        const double scatter = std::min({scatter_about(log.view, explained, blocks).value_or(0.0),
+                                         scatter_about(log.view, base, blocks).value_or(0.0),
+                                         most_scatter * gap / std::sqrt(axes)});
+        ratio = std::max(1.0, scatter / log.sigma);
+    }
+    return visible * axes * ratio * ratio;
+}
+
+/// Limits the probability by the number of blocks that depend on the cause, and by a part that is
+/// explained.
+void cap_probability(GapCause& cause, double explained) {
+    const double blocks = static_cast<double>(cause.blocks);
+    cause.probability =
+        std::min({cause.probability, (blocks + 1.0) / (blocks + 2.0), std::max(0.0, explained)});
+}
 
 GapCause cause_of(const GapQuestion& question, const GapSearch& found, std::size_t k,
                   const Judged& by) {
@@ -220,37 +301,43 @@ GapCause cause_of(const GapQuestion& question, const GapSearch& found, std::size
     out.first = by.teller.first(rest, changed);
     out.worst = by.teller.worst(rest, changed);
     out.heldout = by.teller.shrink(rest.losses, found.left_out);
+    // An exact cause leaves nothing in most of what it touches.
+    cap_probability(out, 2.0 * reached(rest.losses, found.run.losses, by.row_limit) - 1.0);
+    if (step.only_passes_stop) {
+        // All that the log shows of it is that the other control did not stop.
+        out.probability = std::min(out.probability, only_one_block);
+        out.rivals.push_back("another meaning of the block that stops");
+    }
     return out;
 }
 
-GapVerdict verdict_of(const ControlGap& gap) {
-    if (gap.causes.empty() || gap.explained < partly_from) return GapVerdict::unexplained;
-    if (gap.explained < explained_from) return GapVerdict::partly_explained;
+bool is_claimed(const GapCause& cause) {
+    return cause.probability >= claimed;
+}
+
+/// `reached`: part of the rows with a gap that the causes bring down to noise.
+GapVerdict verdict_of(const ControlGap& gap, double reached) {
+    const bool none = std::none_of(gap.causes.begin(), gap.causes.end(), is_claimed);
+    if (none || gap.explained < partly_from) return GapVerdict::unexplained;
+    if (gap.explained < explained_from || reached < all_rows) return GapVerdict::partly_explained;
     const bool rivals = std::any_of(gap.causes.begin(), gap.causes.end(),
                                     [](const GapCause& c) { return !c.rivals.empty(); });
     return rivals ? GapVerdict::ambiguous : GapVerdict::explained;
 }
 
-/// Limits the probability by the number of blocks that depend on the cause, and by the part
-/// explained by all causes.
-void cap_probability(GapCause& cause, double explained) {
-    const double blocks = static_cast<double>(cause.blocks);
-    cause.probability =
-        std::min({cause.probability, (blocks + 1.0) / (blocks + 2.0), std::max(0.0, explained)});
-}
-
-/// Adds a structured gap that no row of the tables explains.
-void add_unknown(ControlGap& gap) {
+/// Adds a structured gap that no row of the tables explains; it is as sure as there are blocks with
+/// it.
+void add_unknown(ControlGap& gap, std::size_t blocks) {
     GapCause cause;
     cause.name = "unknown";
     cause.known = false;
     cause.what = "no choice and no store in the tables explains what stays";
     cause.share = 1.0 - gap.explained;
-    cause.blocks = gap.blocks;
+    cause.blocks = blocks;
     cause.first = gap.first;
     cause.worst = gap.worst;
     cause.probability = 1.0;
-    cap_probability(cause, 1.0 - gap.explained);
+    cap_probability(cause, 1.0);
     gap.causes.push_back(cause);
 }
 
@@ -293,16 +380,59 @@ void tell_causes(const GapQuestion& question, const GapSearch& found, const Comp
     gap.explained =
         excess > 0.0 ? std::clamp((base.loss - sum_of(found.left_out)) / excess, 0.0, 1.0) : 0.0;
     for (GapCause& cause : gap.causes) cap_probability(cause, gap.explained);
+    for (std::size_t k = 0; k < found.steps.size(); ++k)
+        if (is_claimed(gap.causes[k])) found.steps[k].chosen.take(gap.setup);
     std::stable_sort(gap.causes.begin(), gap.causes.end(),
                      [](const GapCause& a, const GapCause& b) { return a.share > b.share; });
-    gap.verdict = verdict_of(gap);
-    if (gap.verdict == GapVerdict::unexplained) add_unknown(gap);
+    const double part = reached(base.losses, found.run.losses, by.row_limit);
+    gap.verdict = verdict_of(gap, part);
     gap.after = by.teller.shrink(base.losses, found.left_out);
     gap.after_rms_um = by.teller.mean_um(found.run.losses);
     for (const GapBlock& block : by.teller.where(found.run, excess))
-        if (block.share > least_left) gap.left.push_back(block);
+        if (block.share > least_left || (part < all_rows && block.p_value < surely_more))
+            gap.left.push_back(block);
+    if (gap.verdict == GapVerdict::unexplained ||
+        (gap.verdict == GapVerdict::partly_explained && part < all_rows))
+        add_unknown(gap, gap.verdict == GapVerdict::unexplained ? gap.blocks : gap.left.size());
     gap.unseen = found.unseen;
-    gap.setup = found.setup;
+}
+
+/// What noise alone might be must be explained wholly and surely.
+bool is_convincing(const ControlGap& gap) {
+    const bool whole = gap.verdict == GapVerdict::explained || gap.verdict == GapVerdict::ambiguous;
+    return whole && std::all_of(gap.causes.begin(), gap.causes.end(), [](const GapCause& c) {
+               return c.probability >= quite_sure || !c.rivals.empty();
+           });
+}
+
+void take_back(const GapQuestion& question, ControlGap& gap) {
+    gap.verdict = GapVerdict::no_gap;
+    gap.causes.clear();
+    gap.left.clear();
+    gap.unseen.clear();
+    gap.setup = question.setup;
+    gap.explained = 0.0;
+    gap.after = {};
+    gap.after_rms_um = gap.rms_um;
+}
+
+/// Adds a note if the log agrees in another unit of length.
+void tell_units(const Comparer& comparer, const setup::Setup& setup, const ComparedRun& base,
+                ControlGap& gap) {
+    struct Unit {
+        double mm;
+        const char* name;
+    };
+    constexpr Unit units[] = {{25.4, "inches"}, {0.001, "micrometres"}, {1000.0, "metres"}};
+    constexpr double agrees = 1e-3;  // of the loss
+    for (const Unit& unit : units) {
+        LogView view = comparer.log();
+        for (LogView::Row& row : view.rows)
+            for (const Axis axis : view.axes)
+                if (!is_rotary(axis)) row.at[axis] *= unit.mm;
+        if (comparer.on(view).run(setup).loss < agrees * base.loss)
+            gap.notes.push_back(fmt::format("the log agrees if its lengths are {}", unit.name));
+    }
 }
 
 }  // namespace
@@ -325,16 +455,32 @@ ControlGap control_gap(const GapQuestion& question, interpreter::ProgramSource& 
     LogOfProgram log = log_of_program(question.log, all);
     log.path.max_blocks = question.max_blocks;
     gap.notes = log.notes;
-    const Comparer comparer(log.view, question.program, programs, log.path);
+    if (log.view.spacing > least_told_mm)
+        gap.notes.push_back(fmt::format(
+            "a move of less than {:.2g} mm, out and back between two samples, would not be seen",
+            log.view.spacing));
+    const auto compare = [&] { return Comparer(log.view, question.program, programs, log.path); };
+    const ComparedRun first = compare().run(question.setup);
+    const std::vector<int> blocks = blocks_of(log.view, first);
+    // A motion that the log samples coarsely looks like noise, and would hide a gap.
+    if (const auto scatter = scatter_about(log.view, first, blocks);
+        log.noise == LogNoise::repeats && scatter && *scatter < log.sigma)
+        set_sigma(log, *scatter);
+    const Comparer comparer = compare();
     const ComparedRun base = comparer.run(question.setup);
-    const std::vector<int> blocks = blocks_of(log.view, base);
     gap.blocks = std::set<int>(blocks.begin(), blocks.end()).size();
     const Texts texts(question.program, all);
     const Teller teller(log, texts, blocks);
     tell_base(log, base, teller, gap);
-    if (is_quiet(log, base, teller.noise_loss())) return gap;
+    const bool quiet = is_quiet(log, base, teller.noise_loss());
+    if (quiet && gap.p_value > chance) return gap;
     const GapSearch found = search_causes(comparer, question.setup, base, blocks, question.watch);
-    tell_causes(question, found, base, {comparer, teller, blocks, base.loss}, gap);
+    tell_causes(question, found, base,
+                {comparer, teller, blocks, base.loss,
+                 row_limit_of(log, base, found.run, blocks, 1e-3 * gap.rms_um)},
+                gap);
+    if (quiet && !is_convincing(gap)) take_back(question, gap);
+    if (gap.verdict == GapVerdict::unexplained) tell_units(comparer, question.setup, base, gap);
     return gap;
 }
 

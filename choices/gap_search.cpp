@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "choices/folds.h"
+#include "choices/joint_stores.h"
 
 namespace trunnion::choices {
 
@@ -61,21 +63,21 @@ class Searcher {
   public:
     Searcher(const Comparer& comparer, const setup::Setup& setup, const ComparedRun& before,
              const std::vector<int>& blocks)
-        : comparer_(comparer), blocks_(blocks), scorer_(comparer.log(), blocks) {
+        : comparer_(comparer), blocks_(blocks), scorer_(comparer.log(), blocks), options_(setup) {
         found_.setup = setup;
         found_.run = before;
         found_.left_out = before.losses;
     }
 
     GapSearch search(const std::function<void(const char*)>& watch) {
-        while (found_.steps.size() < most_steps && found_.run.loss > scorer_.noise_loss()) {
+        for (std::size_t k = 0; k < most_steps && found_.run.loss > scorer_.noise_loss(); ++k) {
             if (watch) watch("choices of the control");
             candidates_.clear();
             unseen_.clear();
             add_choices();
             if (watch) watch("stores of the control");
             add_stores();
-            if (found_.steps.empty()) found_.unseen = unseen_;
+            if (k == 0) found_.unseen = unseen_;
             if (!take_best()) break;
         }
         return std::move(found_);
@@ -106,7 +108,8 @@ class Searcher {
                  {},
                  std::move(run),
                  std::move(left_out),
-                 0.0});
+                 0.0,
+                 false});
         }
     }
     void add_stores() {
@@ -114,15 +117,11 @@ class Searcher {
             StoreFit fit = fit_store(comparer_, found_.setup, found_.run, store, blocks_);
             if (!fit.seen) unseen_.push_back(store.name);
             if (fit.numbers.empty()) continue;
-            std::vector<std::pair<std::function<double&(setup::Setup&)>, double>> values;
-            for (const StoredNumber& number : store.numbers)
-                for (const FittedNumber& fitted : fit.numbers)
-                    if (fitted.name == number.name) values.emplace_back(number.in, fitted.to);
-            const auto take = [values](setup::Setup& s) {
-                for (const auto& [in, value] : values) in(s) = value;
+            const auto take = [store, numbers = fit.numbers](setup::Setup& s) {
+                enter(store, numbers, s);
             };
             add({store.name, store.what, take, fit.numbers, std::move(fit.run),
-                 std::move(fit.left_out), 0.0});
+                 std::move(fit.left_out), 0.0, true});
         }
     }
     bool passes(const GapCandidate& c) const {
@@ -138,26 +137,87 @@ class Searcher {
             if (passes(c) && (best == nullptr || c.score > best->score + 1e-6)) best = &c;
         if (best == nullptr) return false;
         GapStep step;
-        double others = std::exp(now() - best->score);
+        double others = std::exp(now() - best->score), options = 0.0;
         for (const GapCandidate& c : candidates_) {
             if (&c == best) continue;
-            others += std::exp(c.score - best->score);
-            if (c.score > best->score - rival_gap) step.rivals.push_back(c.name);
+            const double odds = std::exp(c.score - best->score);
+            others += odds;
+            const bool rival = c.score > best->score - rival_gap;
+            if (rival) step.rivals.push_back(c.name);
+            if (c.store) continue;
+            options += odds;
+            if (rival) options_instead_[best->name].push_back(c.name);
         }
+        options_odds_[best->name] = options;
         step.probability = 1.0 / (1.0 + others);
-        for (std::size_t row = 0; row < found_.left_out.size(); ++row)
-            found_.left_out[row] = best->left_out[row];
+        step.only_passes_stop = !best->store && only_goes_on(best->run);
+        found_.left_out = best->left_out;
         best->take(found_.setup);
         found_.run = best->run;
+        if (!best->store) best->take(options_);
         step.chosen = std::move(*best);
         found_.steps.push_back(std::move(step));
+        weigh_stores_together();
         return true;
+    }
+    /// The present run ends in an alarm, and the other is nowhere better before.
+    bool only_goes_on(const ComparedRun& other) const {
+        const ControlPath& own = found_.run.path;
+        if (!own.alarm) return false;
+        return std::none_of(found_.run.pairs.begin(), found_.run.pairs.end(),
+                            [&](const Pair& pair) {
+                                return pair.node + 1 < own.nodes.size() &&
+                                       found_.run.losses[pair.row] - other.losses[pair.row] > 1.0;
+                            });
+    }
+    /// Replaces the stores found one by one by those that explain most together.
+    void weigh_stores_together() {
+        const auto is_store = [](const GapStep& step) { return step.chosen.store; };
+        if (std::none_of(found_.steps.begin(), found_.steps.end(), is_store)) return;
+        JointStores joint = explained_together(
+            comparer_, options_, {found_.setup, found_.run}, blocks_,
+            [this](double loss, std::size_t numbers) { return scorer_.score(loss, numbers); },
+            least_gain, rival_gap);
+        std::erase_if(found_.steps, is_store);
+        found_.setup = std::move(joint.control.setup);
+        found_.run = std::move(joint.control.run);
+        found_.left_out = std::move(joint.left_out);
+        for (StoreCause& cause : joint.causes) found_.steps.push_back(step_of(std::move(cause)));
+    }
+    GapStep step_of(StoreCause cause) {
+        GapStep step;
+        step.probability = 1.0 / (1.0 + cause.others + options_odds_[cause.name]);
+        step.rivals = std::move(cause.rivals);
+        const auto& options = options_instead_[cause.name];
+        step.rivals.insert(step.rivals.end(), options.begin(), options.end());
+        const auto take = [name = cause.name, numbers = cause.numbers](setup::Setup& s) {
+            for (const Store& store : store_table(s))
+                if (store.name == name) enter(store, numbers, s);
+        };
+        step.chosen = {std::move(cause.name),
+                       std::move(cause.what),
+                       take,
+                       std::move(cause.numbers),
+                       found_.run,
+                       found_.left_out,
+                       0.0,
+                       true};
+        return step;
+    }
+    static void enter(const Store& store, const std::vector<FittedNumber>& numbers,
+                      setup::Setup& setup) {
+        for (const StoredNumber& number : store.numbers)
+            for (const FittedNumber& fitted : numbers)
+                if (fitted.name == number.name) number.in(setup) = fitted.to;
     }
 
     const Comparer& comparer_;
     const std::vector<int>& blocks_;
     Scorer scorer_;
+    setup::Setup options_;  ///< with the options found, and the stores of the start
     GapSearch found_;
+    std::map<std::string, double> options_odds_;  ///< of options instead of a store
+    std::map<std::string, std::vector<std::string>> options_instead_;
     std::vector<GapCandidate> candidates_;
     std::vector<std::string> unseen_;
 };

@@ -18,13 +18,16 @@ struct GapCandidate {
     ComparedRun run;
     std::vector<double> left_out;  ///< losses of the rows, each evaluated without its fold
     double score = 0.0;            ///< log evidence, up to a common constant
+    bool store = false;            ///< numbers of a store; else an option
 };
 
 /// One accepted change with its results.
 struct GapStep {
     GapCandidate chosen;
     std::vector<std::string> rivals;
-    double probability = 0.0;  ///< among all candidates and none
+    double probability = 0.0;       ///< among all candidates and none
+    bool only_passes_stop = false;  ///< an option under which a program goes on that stopped, and
+                                    ///< that changes nothing before
 };
 
 struct GapSearch {

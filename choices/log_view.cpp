@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <map>
 
 #include "base/alarm.h"
@@ -150,6 +151,25 @@ double measured_sigma(const LogView& view) {
     return most;
 }
 
+/// The third largest distance of neighbouring samples: a rapid move that begins and ends between
+/// two samples may have gone as far, wherever they are. (Two gaps in a log say nothing of its
+/// sampling.) 0 for ends of moves.
+double spacing_of(const LogView& view) {
+    std::vector<double> squares(3, 0.0);
+    for (std::size_t i = 1; i < view.rows.size() && !view.ends; ++i) {
+        double square = 0.0;
+        for (const Axis axis : view.axes)
+            square += std::pow(view.rows[i].at[axis] - view.rows[i - 1].at[axis], 2);
+        squares.push_back(square);
+    }
+    std::nth_element(squares.begin(), squares.begin() + 2, squares.end(), std::greater<>());
+    return std::sqrt(squares[2]);
+}
+
+double chord_of(double sigma) {
+    return std::max(least_sample_sigma, 0.3 * sigma);
+}
+
 void set_noise(const records::PositionLog& log, LogOfProgram& out) {
     const double printed = log.step / std::sqrt(12.0);
     const bool given = std::any_of(log.rows.begin(), log.rows.end(),
@@ -171,6 +191,7 @@ void set_noise(const records::PositionLog& log, LogOfProgram& out) {
         sum += own;
     }
     out.sigma = sum / static_cast<double>(out.view.rows.size());
+    out.least_sigma = std::max(printed, log.ends ? least_sigma : least_sample_sigma);
 }
 
 }  // namespace
@@ -178,6 +199,12 @@ void set_noise(const records::PositionLog& log, LogOfProgram& out) {
 const char* to_string(LogNoise noise) {
     constexpr const char* names[] = {"given", "repeats", "assumed"};
     return names[static_cast<std::size_t>(noise)];
+}
+
+void set_sigma(LogOfProgram& log, double sigma) {
+    log.sigma = std::max(sigma, log.least_sigma);
+    for (LogView::Row& row : log.view.rows) row.weight = 1.0 / log.sigma;
+    log.path.chord_mm = chord_of(log.sigma);
 }
 
 LogOfProgram log_of_program(const records::PositionLog& log,
@@ -206,9 +233,10 @@ LogOfProgram log_of_program(const records::PositionLog& log,
     out.view.keys = keys->count();
     out.view.key_of = [keys](const PathBlock& block) { return keys->of_block(block); };
     set_noise(log, out);
+    out.view.spacing = spacing_of(out.view);
     if (!log.ends) out.path.start = log.rows.front().at;
     out.path.ends_only = log.ends;
-    out.path.chord_mm = std::max(least_sample_sigma, 0.3 * out.sigma);
+    out.path.chord_mm = chord_of(out.sigma);
     if (out.view.keys == 0)
         out.notes.push_back(log.path +
                             ": no block numbers: rows are assigned by their order alone");

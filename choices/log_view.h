@@ -17,7 +17,8 @@ struct LogOfProgram {
     LogView view;
     PathOptions path;  ///< options for a path to be compared with this log
     LogNoise noise = LogNoise::assumed;
-    double sigma = 0.0;  ///< mean standard uncertainty of a position, mm or deg
+    double sigma = 0.0;        ///< mean standard uncertainty of a position, mm or deg
+    double least_sigma = 0.0;  ///< that of the printed increment
     std::vector<std::string> notes;
 };
 
@@ -28,6 +29,9 @@ struct LogOfProgram {
 /// with the log's line for a block that the program does not have.
 LogOfProgram log_of_program(const records::PositionLog& log,
                             const std::vector<interpreter::ProgramText>& texts);
+
+/// Another uncertainty for all rows, at least that of the printed increment.
+void set_sigma(LogOfProgram& log, double sigma);
 
 constexpr double least_sigma = 5e-5;         ///< mm or deg: below the resolution of any control
 constexpr double least_sample_sigma = 1e-4;  ///< of samples: because of the chords of curves

@@ -186,7 +186,7 @@ class Pairer {
 
     /// Distance of the samples around row i.
     double spacing(std::size_t i) const {
-        double most = 0.0;
+        double most = log_.spacing * log_.spacing;
         const std::size_t last = std::min(log_.rows.size() - 1, i + spacing_rows);
         for (std::size_t k = i > spacing_rows ? i - spacing_rows : 0; k < last; ++k)
             most = std::max(most, space_.square(row_at(k), row_at(k + 1)));

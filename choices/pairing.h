@@ -24,6 +24,7 @@ struct LogView {
     bool ends = false;       ///< all rows are ends of moves
     bool marked = false;     ///< every end of a move has a row that is marked as one
     int keys = 0;            ///< number of blocks named by the log; 0: none
+    double spacing = 0.0;    ///< mm or deg: least distance of samples that is assumed everywhere
     /// Number of a block of the program; -1: not named by the log.
     std::function<int(const PathBlock&)> key_of;
 };

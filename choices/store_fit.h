@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "choices/compared_run.h"
-#include "choices/store_table.h"
+#include "choices/store_columns.h"
 
 namespace trunnion::choices {
 

@@ -1,0 +1,42 @@
+// Stores that explain a log together: which ones, with which numbers, and what would do as well.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "choices/store_fit.h"
+
+namespace trunnion::choices {
+
+/// One store of those found.
+struct StoreCause {
+    std::string name, what;
+    std::vector<FittedNumber> numbers;  ///< those that differ from the start
+    double others = 0.0;                ///< sum of the odds of sets without it
+    std::vector<std::string> rivals;    ///< stores that do as well in its place
+};
+
+struct JointStores {
+    FittedControl control;
+    std::vector<StoreCause> causes;
+    std::vector<double> left_out;  ///< losses of the rows, with their fold left out of the fit
+};
+
+/// Score of a set: of its loss and the number of its numbers.
+using SetScore = std::function<double(double loss, std::size_t numbers)>;
+
+/// Two stale stores may look like a third with another value, as long as they are sought one after
+/// the other. So the numbers of all stores are weighed at once: at the run `now` their derivatives
+/// are known, and with these sets are compared by least squares without another run: a number or
+/// a store more, less, or in place of another, or one store in place of two. The best set is fitted
+/// through the control, and the comparison repeated there.
+///
+/// `start`: the control with its options and its own stores. `now`: with the stores found so far;
+/// what is returned scores at least as much. `least_odds`: of the score, a further store costs so
+/// much; `rival_gap`: a set that is closer is a rival.
+JointStores explained_together(const Comparer& comparer, const setup::Setup& start,
+                               FittedControl now, const std::vector<int>& blocks,
+                               const SetScore& score, double least_odds, double rival_gap);
+
+}  // namespace trunnion::choices
