@@ -66,7 +66,9 @@ NumberColumn number_column(const TextTable& table, std::size_t index, Quantity q
                            const std::string& otherwise) {
     const TextColumn& column = table.columns()[index];
     const std::string& name = column.unit.empty() ? otherwise : column.unit;
-    const auto unit = find_unit(name);
+    // Hours only in the column's own name: one told for all would be that of a declination too.
+    const bool hours = quantity == Quantity::angle && !column.unit.empty();
+    const auto unit = hours ? find_unit_of_angle(name) : find_unit(name);
     if (name.empty())
         table.header_line().fail("the unit of '" + column.name +
                                      "' is not told: in its name ([um]), in a row of units, or "

@@ -6,7 +6,7 @@
 #include <cctype>
 
 #include "base/alarm.h"
-#include "imports/column_roles.h"
+#include "imports/iso_columns.h"
 #include "imports/iso_values.h"
 #include "imports/pass_order.h"
 #include "imports/run_names.h"
@@ -16,28 +16,6 @@ namespace trunnion::imports {
 namespace {
 
 using Cells = std::vector<records::TableCell>;
-
-/// "Soll-Pos.", "X target": by the words of the name, with an axis in it or without.
-std::optional<std::size_t> column_of_role(const TextTable& table, Role wanted) {
-    for (std::size_t k = 0; k < table.columns().size(); ++k)
-        for (const char* axis : {"", " x"}) {
-            const auto role = role_of(table.columns()[k].name + axis);
-            if (role && role->role == wanted && role->rate == Rate::position) return k;
-        }
-    return std::nullopt;
-}
-
-std::optional<std::size_t> target_column(const TextTable& table) {
-    const auto named = find_first_column(
-        table, {{"target", "targetposition", "targetpos", "tgt", "tgtpos", "tgtposi", "tgtposij",
-                 "ziel", "zielposition", "zielpos"},
-                {"nominal", "nominalposition", "soll", "sollposition", "sollwert", "nominalangle"},
-                {"commanded", "command", "cmd", "commandedposition", "setpoint", "reference",
-                 "referenceangle", "ref"},
-                {"position", "pos", "positionmm", "angle", "winkel"},
-                {"x", "y", "z", "a", "b", "c"}});
-    return named ? named : column_of_role(table, Role::commanded);
-}
 
 std::string word_before(const std::string& name) {
     return name.substr(0, name.find_first_of("0123456789"));
@@ -63,13 +41,32 @@ bool before(const RunName& a, const RunName& b) {
     return std::pair(a.run, -a.direction) < std::pair(b.run, -b.direction);
 }
 
-/// Direction of a pass whose name is `name`. One told above the table must not contradict it.
+/// Direction of a pass whose name is `name`. One told above the table must not contradict it; for a
+/// heading see take_directions().
 int way_of(const IsoSource& source, const std::string& name, int direction) {
-    if (source.way != 0 && direction != 0 && direction != source.way)
+    if (source.heading_line == 0 && source.way != 0 && direction != 0 && direction != source.way)
         source.table.header_line().fail("'" + name + "' contradicts the direction '" +
                                             source.way_text + "' told for this table",
                                         1);
     return direction != 0 ? direction : source.way;
+}
+
+/// +1 or -1: most steps of the targets from row to row go there.
+int way_of_targets(const IsoSource& source) {
+    int steps = 0;
+    std::optional<double> last;
+    Cells cells;
+    for (std::size_t i = 0; i < source.table.size(); ++i) {
+        source.table.read(i, cells);
+        const auto target = source.table.find_number(cells[source.target].text);
+        if (target && last) steps += *target > *last ? 1 : *target < *last ? -1 : 0;
+        if (target) last = target;
+    }
+    return steps < 0 ? -1 : 1;
+}
+
+std::string by_order(int way) {
+    return std::string("towards ") + (way > 0 ? '+' : '-') + ", by the order of the targets";
 }
 
 /// Direction of runs whose names have none.
@@ -80,8 +77,9 @@ int way_of_plain_runs(const IsoSource& source, std::vector<std::string>& notes) 
             "the runs have no direction (\"1+\", \"1-\"), and '" + source.way_text +
                 "' above the table is not one of them: --with sense=forward or backward tells it",
             1);
-    notes.push_back(source.table.path() + ": runs without a direction taken as towards +");
-    return 1;
+    const int way = way_of_targets(source);
+    notes.push_back(source.table.path() + ": runs without a direction taken as " + by_order(way));
+    return way;
 }
 
 struct RunColumn {
@@ -101,6 +99,10 @@ std::vector<RunColumn> run_columns(const IsoSource& source, std::vector<std::str
         if (name.run > 0 && name.direction == 0 && !name.other)
             plain.push_back({k, {name.run, 0, false}});
     }
+    // A lone "r" beside a column of values is no pass.
+    if (ways.size() == 1 && may_be_no_direction(columns[ways[0].column].name) &&
+        find_value_column(source.table, source.target))
+        ways.clear();
     if (runs.empty()) runs = ways;
     if (runs.empty() && !plain.empty()) {
         runs = plain;
@@ -149,7 +151,7 @@ bool targets_across(const TextTable& table) {
 }
 
 std::vector<IsoPoint> across_points(const IsoSource& source) {
-    const auto& [table, facts, quantities, target, factor, way, way_text] = source;
+    const auto& [table, facts, quantities, target, factor, way, way_text, heading] = source;
     const std::string& told = table.columns()[0].unit;
     const auto unit = find_unit(told.empty() ? usual_unit(quantities.target) : told);
     const auto value_unit = find_unit(facts.text("unit"));
@@ -190,21 +192,13 @@ struct ListColumns {
     std::optional<std::size_t> run, direction, axis;
 };
 
-ListColumns list_columns(const IsoSource& source) {
+ListColumns list_columns(const IsoSource& source, std::vector<std::string>& notes) {
     const TextTable& table = source.table;
-    auto value = find_first_column(
-        table, {{"deviation", "error", "abweichung", "fehler", "dev", "err", "positionerror",
-                 "positioningerror", "positiondeviation", "delta", "diff", "difference", "abw",
-                 "deviations", "angularerror", "straightness", "pitch", "yaw", "roll"},
-                {"measured", "actual", "ist", "istposition", "istwert", "messwert", "reading",
-                 "measuredposition", "actualposition", "laser", "laserreading", "laserposition",
-                 "interferometer", "encoder", "resolver", "measuredangle", "actualangle"},
-                {"value", "data", "position", "pos"}});
-    if (!value) value = column_of_role(table, Role::error);
-    if (!value) value = column_of_role(table, Role::actual);
-    if (!value || *value == source.target)
+    const auto value = find_value_column(table, source.target);
+    if (!value)
         table.header_line().fail("no column of deviations and no columns of runs (\"1+\", \"1-\")",
                                  1);
+    note_other_values(table, source.target, *value, notes);
     ListColumns columns{{*value, value_factor(source, *value)}, {}, {}, {}};
     columns.run = find_column(
         table, {"run", "cycle", "lauf", "zyklus", "repeat", "wiederholung", "series", "i"});
@@ -242,7 +236,7 @@ IsoPoint list_point(const IsoSource& source, const ListColumns& columns, std::si
 /// One value a line, with or without columns for run, direction and axis.
 std::vector<IsoSeries> listed_series(const IsoSource& source, Imported& result) {
     const TextTable& table = source.table;
-    const ListColumns columns = list_columns(source);
+    const ListColumns columns = list_columns(source, result.notes);
     const TimeColumn time(table, source.facts);
     std::vector<IsoSeries> series;
     Cells cells;
@@ -268,17 +262,38 @@ std::vector<IsoSeries> listed_series(const IsoSource& source, Imported& result) 
     return series;
 }
 
+bool goes(const std::vector<IsoPoint>& points, int direction) {
+    return std::any_of(points.begin(), points.end(),
+                       [&](const IsoPoint& p) { return p.direction == direction; });
+}
+
+/// Directions of points without one, and a note on what determined them. A heading is not that of a
+/// table whose names tell both directions.
+void take_directions(const IsoSource& source, std::vector<IsoPoint>& points,
+                     std::vector<std::string>& notes) {
+    const TextTable& table = source.table;
+    const bool up = goes(points, 1), down = goes(points, -1), heading = source.heading_line > 0;
+    const int way = heading && up && down ? 0 : source.way;
+    follow_order(table, points, way);
+    for (const IsoPoint& p : points)
+        if (way != 0 && p.direction != way)
+            table.fail(
+                p.row, 0,
+                "this contradicts the direction '" + source.way_text + "' told for this table");
+    if (way != 0 && heading)
+        notes.push_back(fmt::format("{}: the heading of line {} tells the direction: {}",
+                                    table.path(), source.heading_line, source.way_text));
+    if (way == 0 && !up && !down && goes(points, 1) != goes(points, -1))
+        notes.push_back(table.path() +
+                        ": no direction is told: " + by_order(points.front().direction));
+}
+
 void finish(const IsoSource& source, IsoSeries& series, Imported& result) {
     const TextTable& table = source.table;
     std::vector<IsoPoint>& points = series.points;
     if (points.empty()) throw InputError("no value in the table", {table.path(), 1, 1});
     if (source.quantities.target == Quantity::angle) unwrap_turns(points);
-    follow_order(table, points, source.way);
-    for (const IsoPoint& p : points)
-        if (source.way != 0 && p.direction != source.way)
-            table.fail(
-                p.row, 0,
-                "this contradicts the direction '" + source.way_text + "' told for this table");
+    take_directions(source, points, result.notes);
     if (!series.timed && turn_passes(points))
         result.notes.push_back(table.path() +
                                ": passes listed against their direction are read in reverse");
@@ -295,15 +310,17 @@ void take_way(IsoSource& source) {
     source.way = direction_in(source.way_text).value_or(0);
     const auto heading = source.table.head().find("heading direction");
     if (heading == source.table.head().end()) return;
-    const std::string& text = heading->second.value;
+    const auto& [text, line] = heading->second;
     const int way = direction_in(text).value_or(0);
-    if (source.way == -way)
+    if (way == 0 && source.way != 0) return;
+    if (source.way * way < 0)
         source.table.head_line(heading->second)
             .fail("'" + text + "' contradicts the direction '" + source.way_text +
                       "' told for this table",
                   1);
     source.way = way;
     source.way_text = text;
+    source.heading_line = line.number;
 }
 
 }  // namespace
@@ -317,7 +334,7 @@ void step_times(const Facts& facts, std::vector<IsoPoint>& points) {
 std::vector<IsoSeries> read_iso_points(const TextTable& table, const Facts& facts,
                                        const IsoQuantities& quantities, Imported& result) {
     std::vector<IsoSeries> list;
-    IsoSource source{table, facts, quantities, 0, 1.0, 0, ""};
+    IsoSource source{table, facts, quantities, 0, 1.0, 0, "", 0};
     take_way(source);
     if (targets_across(table)) {
         list.push_back({"", across_points(source), false, false});

@@ -18,6 +18,7 @@ struct IsoSource {
     /// Direction told above the table or by --with sense=: +1 or -1; 0: both ways, or none told.
     int way = 0;
     std::string way_text;
+    int heading_line = 0;  ///< line of the heading that tells it; 0: none does
 };
 
 std::string usual_unit(Quantity quantity);

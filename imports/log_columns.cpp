@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "base/units.h"
 #include "imports/column_roles.h"
@@ -61,21 +62,48 @@ AxisColumns& columns_of(LogColumns& log, const setup::Setup& setup, Axis axis) {
     return log.axes.back();
 }
 
-/// A column name without axis letter ("commanded", "actual position") refers to the axis given by
-/// the user.
-std::optional<ColumnRole> role_in(const TextColumn& column, const AxisNames& names,
-                                  const Facts& facts) {
-    if (auto role = role_of(column.name, names)) return role;
-    return facts.has("axis") ? role_of(column.name + ' ' + facts.text("axis"), names)
-                             : std::nullopt;
-}
-
 /// "J5 pos", not "J5" alone.
 bool says_position(const std::string& name) {
     const std::vector<std::string> words = words_of(name);
     return std::any_of(words.begin(), words.end(), [](const std::string& word) {
         return word == "pos" || word == "position" || word == "angle";
     });
+}
+
+bool is_index_word(const std::string& text) {
+    return text.find_first_not_of("0123456789") == std::string::npos;
+}
+
+/// "m1_goal", "MotorCmdPos#0" without the motor and its number.
+std::string without_motor(const std::string& name) {
+    static const std::set<std::string> motors{"m", "motor", "servo", "drive"};
+    std::vector<std::string> words = words_of(name);
+    if (!words.empty() && motors.contains(words[0].substr(0, words[0].find_first_of("0123456789"))))
+        words.erase(words.begin());
+    std::erase_if(words, is_index_word);
+    std::string out;
+    for (const std::string& word : words) out += word + ' ';
+    return out;
+}
+
+/// Position of the axis `axis` by the name of its motor. Speeds and errors of motors are often raw.
+std::optional<ColumnRole> role_of_motor(const TextColumn& column, const AxisNames& names,
+                                        const std::string& axis) {
+    const auto role = role_of(without_motor(column.name) + axis, names);
+    const bool position = role && role->rate == Rate::position &&
+                          (role->role == Role::commanded || role->role == Role::actual ||
+                           (role->role == Role::none && says_position(column.name)));
+    return position ? role : std::nullopt;
+}
+
+/// A column name without axis letter ("commanded", "actual position") refers to the axis given by
+/// the user.
+std::optional<ColumnRole> role_in(const TextColumn& column, const AxisNames& names,
+                                  const Facts& facts, bool of_motor) {
+    if (auto role = role_of(column.name, names)) return role;
+    if (of_motor) return role_of_motor(column, names, facts.text("axis"));
+    return facts.has("axis") ? role_of(column.name + ' ' + facts.text("axis"), names)
+                             : std::nullopt;
 }
 
 /// "Az" next to "Az error" or "Az actual": the commanded position. "J5 pos" next to "J5 target":
@@ -108,42 +136,23 @@ void check(const TextTable& table, const LogColumns& log, const setup::Setup& se
     const kinematics::AxisGeometry first = setup.machine.chain.axes().front();
     const std::string name = setup.machine.chain.names()[first.axis];
     table.header_line().fail(
-        fmt::format("no axis of the machine ({0}) has both a commanded and an actual position: "
-                    "\"{1} commanded\" (cmd, target, set, ref, soll) and \"{1} actual\" (act, "
-                    "measured, encoder, feedback, ist); --with columns= names them in their order",
-                    axes, name),
+        fmt::format(
+            "no axis of the machine ({0}) has both a commanded and an actual position: "
+            "\"{1} commanded\" (cmd, target, set, ref, soll) and \"{1} actual\" (act, "
+            "measured, encoder, feedback, ist); --with axis={1} gives the axis of names without "
+            "one, --with columns= the names",
+            axes, name),
         1);
 }
 
-}  // namespace
-
-std::optional<BlockColumnFound> find_block_column(const TextTable& table) {
-    if (const auto line = find_column(table, {"line", "programline", "ncline"}))
-        return BlockColumnFound{*line, true};
-    const auto number = find_column(table, {"block", "blocknumber", "sequence", "sequencenumber",
-                                            "sequenceno", "satz", "satznummer"});
-    if (number) return BlockColumnFound{*number, false};
-    for (std::size_t k = 0; k < table.columns().size(); ++k)  // "n" may be the number of the row
-        if (table.columns()[k].name == "N") return BlockColumnFound{k, false};
-    return std::nullopt;
-}
-
-bool LogColumns::places_only() const {
-    return block && !any_read(*this) &&
-           std::any_of(axes.begin(), axes.end(), [](auto& axis) { return axis.place(); });
-}
-
-LogColumns log_columns(const TextTable& table, const setup::Setup& setup, const Facts& facts,
-                       const TimeColumn& time, bool blocks) {
-    LogColumns log;
-    if (blocks) log.block = find_block_column(table);
-    log.session = find_column(table, {"session"});
+void take_columns(const TextTable& table, const setup::Setup& setup, const Facts& facts,
+                  const TimeColumn& time, LogColumns& log) {
     std::vector<std::pair<Axis, std::size_t>> plain;
     for (std::size_t k = 0; k < table.columns().size(); ++k) {
         if (time.is_column(k) || log.session == k || (log.block && log.block->column == k))
             continue;
         const TextColumn& column = table.columns()[k];
-        const auto role = role_in(column, setup.machine.chain.names(), facts);
+        const auto role = role_in(column, setup.machine.chain.names(), facts, log.of_motor);
         const auto axis = role ? axis_named(setup, role->axis) : std::nullopt;
         if (axis && role->role == Role::none && role->rate == Rate::position) {
             plain.emplace_back(*axis, k);
@@ -166,6 +175,39 @@ LogColumns log_columns(const TextTable& table, const setup::Setup& setup, const 
     }
     for (const auto& [axis, k] : plain)
         take_plain(table, k, facts, columns_of(log, setup, axis), log);
+}
+
+}  // namespace
+
+std::optional<BlockColumnFound> find_block_column(const TextTable& table) {
+    if (const auto line = find_column(table, {"line", "programline", "ncline"}))
+        return BlockColumnFound{*line, true};
+    const auto number = find_column(table, {"block", "blocknumber", "sequence", "sequencenumber",
+                                            "sequenceno", "satz", "satznummer"});
+    if (number) return BlockColumnFound{*number, false};
+    for (std::size_t k = 0; k < table.columns().size(); ++k)  // "n" may be the number of the row
+        if (table.columns()[k].name == "N") return BlockColumnFound{k, false};
+    return std::nullopt;
+}
+
+bool LogColumns::places_only() const {
+    return block && !any_read(*this) &&
+           std::any_of(axes.begin(), axes.end(), [](auto& axis) { return axis.place(); });
+}
+
+LogColumns log_columns(const TextTable& table, const setup::Setup& setup, const Facts& facts,
+                       const TimeColumn& time, bool blocks) {
+    LogColumns none;
+    if (blocks) none.block = find_block_column(table);
+    none.session = find_column(table, {"session"});
+    LogColumns log = none;
+    take_columns(table, setup, facts, time, log);
+    // A motor's encoder may stand beside that of its axis: only where no other name tells it.
+    if (!any_read(log) && !log.places_only() && facts.has("axis")) {
+        log = none;
+        log.of_motor = true;
+        take_columns(table, setup, facts, time, log);
+    }
     check(table, log, setup);
     return log;
 }

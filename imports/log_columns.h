@@ -39,6 +39,7 @@ struct LogColumns {
     std::vector<std::string> unused;
     std::vector<std::string> taken_as_actual;  ///< "J5 pos" next to "J5 target"
     bool units_assumed = false;
+    bool of_motor = false;  ///< names of a motor stand for the axis that the user gave
     std::optional<BlockColumnFound> block;
     std::optional<std::size_t> session;
 

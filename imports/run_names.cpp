@@ -24,6 +24,8 @@ const std::map<std::string, int>& directions() {
                                                   {"neg", -1},
                                                   {"positive", 1},
                                                   {"negative", -1},
+                                                  {"positiv", 1},
+                                                  {"negativ", -1},
                                                   {"plus", 1},
                                                   {"minus", -1},
                                                   {"forward", 1},

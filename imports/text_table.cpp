@@ -75,6 +75,18 @@ bool row_like(const Cells& cells, const Dialect& dialect) {
     return cells.size() > 2 || is_data({cells.front()}, dialect) || first.empty();
 }
 
+/// Length of the path before every name: "Try/" of "Try/t", "Try/pos". It tells nothing.
+std::size_t shared_path(const Cells& names) {
+    const std::string first = names.front().plain();
+    const std::size_t length = first.rfind('/') + 1;  // 0 without one
+    const bool shared = std::all_of(names.begin(), names.end(), [&](const auto& cell) {
+        const std::string name = cell.plain();
+        return name.size() > length && name.starts_with(first.substr(0, length)) &&
+               !find_unit(name.substr(length));
+    });
+    return shared && names.size() > 1 ? length : 0;
+}
+
 }  // namespace
 
 TextColumn column_named(const std::string& name, int column) {
@@ -189,8 +201,9 @@ void TextTable::read_header(const std::vector<Line>& lines, std::size_t at) {
             "numbers where the names of the columns are expected (--with columns=\"time [s], X cmd "
             "[mm], X act [mm]\" tells them)",
             1);
+    const std::size_t path = shared_path(names);
     for (const records::TableCell& cell : names)
-        columns_.push_back(column_named(cell.plain(), cell.column));
+        columns_.push_back(column_named(cell.plain().substr(path), cell.column));
 }
 
 /// Columns as given by the user; the first line with as many numbers.

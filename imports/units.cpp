@@ -108,4 +108,9 @@ std::optional<Unit> find_unit(std::string_view name) {
     return Unit{it->second.quantity, *times * it->second.factor};
 }
 
+std::optional<Unit> find_unit_of_angle(std::string_view name) {
+    constexpr double hour_rad = pi / 12.0;
+    return plain(name) == "h" ? Unit{Quantity::angle, hour_rad} : find_unit(name);
+}
+
 }  // namespace trunnion::imports

@@ -16,5 +16,7 @@ struct Unit {
 /// "um", "µm", "arcsec", "ms", "mm/min", "deg/s" ..., "0.1um" for a count of such steps; empty for
 /// an unknown unit.
 std::optional<Unit> find_unit(std::string_view name);
+/// Of an angle: "h" is 15 degrees, as of hour angles and right ascensions.
+std::optional<Unit> find_unit_of_angle(std::string_view name);
 
 }  // namespace trunnion::imports

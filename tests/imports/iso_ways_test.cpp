@@ -121,6 +121,63 @@ TEST_CASE("a direction above a table is understood or refused", "[imports][ways]
             "contradicts the direction 'backward'", 3);
 }
 
+TEST_CASE("a heading of other words names the direction of the tables below it",
+          "[imports][ways]") {
+    const setup::Setup setup = import_bench::setup();
+    const std::string plain = "target [mm],run 1 [um],run 2 [um]\n",
+                      list = "target [mm],error [um]\n0,1\n100,2\n200,3\n";
+    const std::string first = "## Error by Sensor AB12 Positive Direction\n\n",
+                      second = "## Error by Sensor AB12 Negative Direction\n\nAt 3 positions.\n";
+    CHECK(rows_of(first + plain + up + second + plain + down) == rows_of(one_table));
+    CHECK(has(imported(setup, {iso, second + list, {"axis=X"}, ""}).notes,
+              "the heading of line 1 tells the direction: negative"));
+    for (const char* heading :
+         {"# Stage 4, backward travel", "Table 3 - Backward", "## Lauf 2, Richtung negativ",
+          "* Test 7 in X- direction at 20 degC", "## Reverse pass of the second day"}) {
+        INFO(heading);
+        CHECK(sides(heading + ("\n" + list), {"axis=X"}) == std::set<int>{-1});
+    }
+    for (const char* remark :
+         {"# all numbers are negative", "# back up 12", "# after a warm up run",
+          "# positive and negative direction", "# the laser was moved back by 3 mm",
+          "# pass forward; then pass 2"}) {
+        INFO(remark);
+        CHECK(sides(remark + ("\n" + list), {"axis=X"}) == std::set<int>{1});
+    }
+    // A heading with both directions ends what the one before told.
+    CHECK(has(
+        imported(
+            setup,
+            {iso, second + list + "## Positive and negative direction\n" + list, {"axis=X"}, ""})
+            .notes,
+        "no direction is told: towards +"));
+    // It is not that of a table whose names tell both; one whose names tell the other is refused.
+    CHECK(rows_of("# positive direction: away from the motor\n# positive direction away from it\n" +
+                  one_table) == rows_of("\n\n" + one_table));
+    refuses(setup, {iso, second + "target [mm],1+ [um],2+ [um]\n" + up, {"axis=X"}, ""},
+            "contradicts the direction 'negative'", 5);
+}
+
+TEST_CASE("a direction that only the order of the targets tells is told", "[imports][ways]") {
+    const setup::Setup setup = import_bench::setup();
+    const std::string rising = "0,1,1\n100,2,2\n200,3,3\n", falling = "200,3,3\n100,2,2\n0,1,1\n";
+    for (const std::string names : {"target [mm],error [um],n\n", "target [mm],run 1 [um],n\n"}) {
+        INFO(names);
+        CHECK(sides(names + rising, {"axis=X"}) == std::set<int>{1});
+        CHECK(sides(names + falling, {"axis=X"}) == std::set<int>{-1});
+        CHECK(has(imported(setup, {iso, names + falling, {"axis=X"}, ""}).notes,
+                  "towards -, by the order of the targets"));
+        CHECK(has(imported(setup, {iso, names + rising, {"axis=X"}, ""}).notes,
+                  "towards +, by the order of the targets"));
+        CHECK_FALSE(has(imported(setup, {iso, names + falling, {"axis=X", "sense=-"}, ""}).notes,
+                        "by the order"));
+        CHECK_FALSE(has(
+            imported(setup, {iso, "Direction: backward\n" + names + falling, {"axis=X"}, ""}).notes,
+            "by the order"));
+    }
+    CHECK_FALSE(has(imported(setup, {iso, one_table, {"axis=X"}, ""}).notes, "by the order"));
+}
+
 TEST_CASE("passes that all begin at the first target have one direction", "[imports][ways]") {
     const std::string with_runs =
         "run,target [mm],error [um]\n1,0,0\n1,100,1\n1,200,2\n2,0,0.4\n2,100,1.4\n2,200,2.4\n";
