@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "choices/folds.h"
@@ -16,7 +17,8 @@ using Eigen::Index, Eigen::VectorXd;
 constexpr int most_selections = 4;  ///< of selection and fit
 constexpr int most_fits = 25;       ///< steps of Gauss-Newton
 constexpr std::size_t most_numbers = 12;
-constexpr double more = 1e-6;  ///< of a score
+constexpr double lone_block = 0.99;  ///< of what is known of a number
+constexpr double more = 1e-6;        ///< of a score
 
 /// A number that the log depends on, and its store's place in the table.
 struct Seen {
@@ -127,7 +129,34 @@ class Selection {
         return set;
     }
 
+    /// The best set that grows from a part of this one: the others may have been needed only beside
+    /// a wrong one.
+    Set grown_from_parts(const Set& set) const {
+        Set best = set;
+        for (const Index seed : set) {
+            Set next = grown({seed});
+            if (score(next) > score(best) + more) best = std::move(next);
+        }
+        return best;
+    }
+
   private:
+    /// With the store that helps most, again and again.
+    Set grown(Set set) const {
+        const std::set<std::size_t> all = all_stores();
+        for (double own = score(set);;) {
+            Set best;
+            for (const std::size_t store : all) {
+                Set next = with(set, store);
+                const double value = score(next);
+                if (next.empty() || value <= own + more) continue;
+                own = value;
+                best = std::move(next);
+            }
+            if (best.empty()) return set;
+            set = std::move(best);
+        }
+    }
     static bool contains(const Set& set, Index k) {
         return std::find(set.begin(), set.end(), k) != set.end();
     }
@@ -214,7 +243,7 @@ class Joint {
     bool select() {
         const LinearLoss linear(comparer_, now_, columns_, seen_);
         const Selection selection(linear, seen_, score_, least_odds_);
-        const Set old = present(), set = selection.improved(old);
+        const Set old = present(), set = selection.improved(selection.grown_from_parts(old));
         if (set == old || set.empty()) return false;
         const VectorXd x = linear.best(set);
         FittedControl other{start_, {}};
@@ -271,6 +300,25 @@ class Joint {
                 cause.rivals.push_back(table_[other].name);
         }
     }
+    /// A block that alone determines a number is not left out as a whole, but row by row.
+    void divide_lone_blocks(const std::vector<Column>& columns, std::vector<int>& folds) const {
+        for (const Column& column : columns) {
+            std::map<int, double> weight;
+            double sum = 0.0;
+            for (std::size_t k = 0; k < column.size(); ++k)
+                for (const Axis axis : comparer_.log().axes) {
+                    const double own = column[k][axis] * column[k][axis];
+                    weight[blocks_[now_.run.pairs[k].row]] += own;
+                    sum += own;
+                }
+            for (const auto& [block, own] : weight) {
+                if (own < lone_block * sum) continue;
+                int in_turn = 0;
+                for (std::size_t row = 0; row < folds.size(); ++row)
+                    if (blocks_[row] == block) folds[row] = in_turn++ % fold_count;
+            }
+        }
+    }
     std::vector<double> left_out(const Set& set) const {
         if (set.empty()) return now_.run.losses;
         std::vector<Column> columns;
@@ -280,8 +328,9 @@ class Joint {
             columns.push_back(columns_[at]);
             back[static_cast<Index>(k)] = seen_[at].start - seen_[at].now;
         }
-        return left_out_losses(comparer_, now_.run, columns, back,
-                               folds_for(before_.losses, now_.run.losses, blocks_));
+        std::vector<int> folds = folds_for(before_.losses, now_.run.losses, blocks_);
+        divide_lone_blocks(columns, folds);
+        return left_out_losses(comparer_, now_.run, columns, back, folds);
     }
 
     const Comparer& comparer_;
