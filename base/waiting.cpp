@@ -55,6 +55,10 @@ WaitLimits::~WaitLimits() {
     living() = {};
 }
 
+bool work_must_end() {
+    return !reason_to_end(Clock::now(), false).empty();
+}
+
 bool Wait::step(int descriptor, short events, bool limited) {
     constexpr int step_ms = 50;
     pollfd one{descriptor, events, 0};

@@ -7,7 +7,8 @@
 
 namespace trunnion::inline base {
 
-/// While it lives, waits in this process end with its time and its interruption. One at a time.
+/// While it lives, waits in this process end with its time and its interruption, and so does work
+/// that asks. One at a time.
 class WaitLimits {
   public:
     /// `time_s` counts from here; 0: no limit.
@@ -16,6 +17,9 @@ class WaitLimits {
     WaitLimits(const WaitLimits&) = delete;
     WaitLimits& operator=(const WaitLimits&) = delete;
 };
+
+/// True when those limits end work that has no meter of its own.
+bool work_must_end();
 
 /// One wait, from its construction.
 class Wait {

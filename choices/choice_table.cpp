@@ -1,15 +1,17 @@
 #include "choices/choice_table.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "choices/store_table.h"
+
 namespace trunnion::choices {
 
 namespace {
 
 using controller::HurcoChoices;
 using setup::Setup;
-
-bool is_hurco(const Setup& setup) {
-    return setup.dialect.family == interpreter::DialectFamily::hurco;
-}
 
 struct Bit {
     int number, index;
@@ -35,9 +37,33 @@ constexpr Bit bits[] = {
     {5006, 6, "G43 and G49 move the tool", "G43 and G49 shift the coordinates and move nothing"},
     {5400, 0, "the angle of G68 is absolute", "the angle of G68 adds under G91"},
     {6000, 3, "#2001 and on are wear", "#2001 and on are geometry"},
+    {6001, 5, "T codes call no program", "T codes call O9000"},
     {6004, 0, "ATAN counts to 360 degrees", "ATAN counts from -180 to 180 degrees"},
+    {6004, 5, "#2401 and on are work offsets", "#2401 and on are D offsets"},
     {19607, 2, "outside corners of G41 by lines", "outside corners of G41 by arcs"},
     {19696, 5, "G43.4 counts on the table", "G43.4 counts in the work frame (WKP)"},
+};
+
+/// A parameter with a value; `absent`: what the control takes without it.
+struct Value {
+    int number;
+    double value, absent;
+    const char* what;
+};
+constexpr Value values[] = {
+    {3410, 0.0, 0.0, "the radii at both ends of an arc are not compared"},
+    {3410, 1.0, 0.0, "the radii at both ends of an arc may differ by 1 mm"},
+    {5460, 1.0, 1.0, "G12.1 takes the first axis as its linear axis"},
+    {5460, 2.0, 1.0, "G12.1 takes the second axis as its linear axis"},
+    {5460, 3.0, 1.0, "G12.1 takes the third axis as its linear axis"},
+    {5461, 4.0, 0.0, "G12.1 takes the fourth axis as its rotary axis"},
+    {5461, 5.0, 0.0, "G12.1 takes the fifth axis as its rotary axis"},
+    {19625, 3.0, 3.0, "cutter compensation reads 3 blocks ahead"},
+    {19625, 4.0, 3.0, "cutter compensation reads 4 blocks ahead"},
+    {19625, 5.0, 3.0, "cutter compensation reads 5 blocks ahead"},
+    {19625, 6.0, 3.0, "cutter compensation reads 6 blocks ahead"},
+    {19625, 7.0, 3.0, "cutter compensation reads 7 blocks ahead"},
+    {19625, 8.0, 3.0, "cutter compensation reads 8 blocks ahead"},
 };
 
 Choice bit_choice(const Bit& bit, bool on) {
@@ -58,6 +84,8 @@ struct Switch {
 constexpr Switch switches[] = {
     {"work_positions_with_length", &Setup::work_positions_with_length,
      "#5041 and on leave the tool length out", "#5041 and on include the tool length"},
+    {"work_offset_is_group_12", &Setup::work_offset_is_group_12,
+     "#4012 reads G66 and G67, #4014 G54 to G59", "#4012 reads G54 to G59, #4014 G66 and G67"},
     {"g89_feeds_to_initial", &Setup::g89_feeds_to_initial, "G89 under G98 feeds out to R only",
      "G89 under G98 feeds out to the initial level"},
     {"g53_under_g91_moves", &Setup::g53_under_g91_moves, "G53 under G91 does not move",
@@ -176,18 +204,55 @@ void add_block_skip(std::vector<Choice>& out) {
                            }});
 }
 
+void add_values(std::vector<Choice>& out) {
+    for (const Value& row : values)
+        out.push_back({std::to_string(row.number), fmt::format("{}", row.value), row.what,
+                       [row](const Setup& s) {
+                           return s.stores.parameters.get(row.number, row.absent) == row.value;
+                       },
+                       [row](Setup& s) { s.stores.parameters.set(row.number, row.value); }});
+}
+
+/// G60 without an overrun is one move and with one it is two, so no derivative leads from 0 to the
+/// overrun of the log: from these values the store 5440 begins.
+void add_overruns(std::vector<Choice>& out) {
+    for (const Axis axis : {Axis::X, Axis::Y, Axis::Z})
+        for (const double mm : {1.0, -1.0, 0.2, -0.2})
+            out.push_back({fmt::format("5440.{}", letter_of(axis)), fmt::format("{}", mm),
+                           fmt::format("G60 has an overrun of {} mm in {}", mm, letter_of(axis)),
+                           [axis, mm](const Setup& s) {
+                               Setup copy = s;
+                               return !s.machine.chain.find(axis) ||
+                                      axis_value(copy, 5440, axis) == mm;
+                           },
+                           [axis, mm](Setup& s) { axis_value(s, 5440, axis) = mm; }});
+}
+
+/// The clamps of a setup: which there are is the builder's.
+void add_clamps(std::vector<Choice>& out) {
+    for (const bool alarm : {false, true})
+        out.push_back({"clamps.alarm", alarm ? "true" : "false",
+                       alarm ? "a move of a clamped axis is an alarm" : "clamped axes move",
+                       [alarm](const Setup& s) {
+                           return std::all_of(s.clamps.begin(), s.clamps.end(),
+                                              [alarm](const controller::ClampCode& clamp) {
+                                                  return clamp.alarm == alarm;
+                                              });
+                       },
+                       [alarm](Setup& s) {
+                           for (controller::ClampCode& clamp : s.clamps) clamp.alarm = alarm;
+                       }});
+}
+
 std::vector<Choice> whole_table() {
     std::vector<Choice> out;
     add_frames(out);
     add_switches(out);
     for (const Bit& bit : bits)
         for (const bool on : {false, true}) out.push_back(bit_choice(bit, on));
-    for (int blocks = 3; blocks <= 8; ++blocks)
-        out.push_back(
-            {"19625", std::to_string(blocks),
-             "cutter compensation reads " + std::to_string(blocks) + " blocks ahead",
-             [blocks](const Setup& s) { return s.stores.parameters.get(19625, 3.0) == blocks; },
-             [blocks](Setup& s) { s.stores.parameters.set(19625, blocks); }});
+    add_values(out);
+    add_overruns(out);
+    add_clamps(out);
     add_block_skip(out);
     add_controls(out);  // last, because of equal rows the smaller change is named first
     return out;

@@ -311,8 +311,9 @@ GapCause cause_of(const GapQuestion& question, const GapSearch& found, std::size
     return out;
 }
 
+/// The cause, or one of its rivals.
 bool is_claimed(const GapCause& cause) {
-    return cause.probability >= claimed;
+    return cause.probability * (1.0 + static_cast<double>(cause.rivals.size())) >= claimed;
 }
 
 /// `reached`: part of the rows with a gap that the causes bring down to noise.

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/waiting.h"
 #include "controller/controller.h"
 #include "emulator/run.h"
+#include "setup/hurco_keys.h"
 
 namespace trunnion::choices {
 
@@ -83,13 +85,17 @@ ControlPath path_of(const setup::Setup& setup, const interpreter::ProgramText& p
     path.blocks.emplace_back();
     PathSink sink(path, options, program.name);
     offsets::Stores stores = setup.stores;
+    // Read from a file they are in the parameters already; a change of the search is not.
+    setup::believe_centrelines(setup, stores.parameters);
     controller::ControlConfig config = emulator::control_config(setup);
     config.max_blocks = options.max_blocks;
+    config.go_on = [](std::uint64_t) { return !work_must_end(); };
     controller::Controller control(std::move(config), stores, programs, sink,
                                    [](std::string_view) {});
     control.place(options.start);
     for (const auto& [number, value] : setup.stores.variables) control.set_variable(number, value);
     path.alarm = control.run(program).alarm;
+    if (work_must_end()) throw PathEnded();
     return path;
 }
 

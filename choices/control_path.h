@@ -44,8 +44,12 @@ struct PathOptions {
     std::uint64_t max_blocks = 0;
 };
 
+/// Thrown when --max-seconds or Ctrl-C (WaitLimits) ends the work: a part of a path compares with
+/// nothing.
+struct PathEnded {};
+
 /// Runs the program on the setup's control. G31 always reaches its programmed end. Alarms are in
-/// the result.
+/// the result. Throws PathEnded.
 ControlPath path_of(const setup::Setup& setup, const interpreter::ProgramText& program,
                     interpreter::ProgramSource& programs, const PathOptions& options);
 

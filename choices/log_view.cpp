@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <set>
 
 #include "base/alarm.h"
 #include "base/units.h"
@@ -50,7 +51,7 @@ class BlockKeys {
         : main_(file_of(texts.front().name)) {
         for (const interpreter::ProgramText& text : texts)
             numbers_[file_of(text.name)] = numbers_in(text.text);
-        by_number_ = log.blocks == records::BlockColumn::number && all_are_numbers(log);
+        by_number_ = log.blocks == records::BlockColumn::number && most_are_numbers(log);
         knows_program_ = std::any_of(log.rows.begin(), log.rows.end(), [&](const auto& row) {
             return numbers_.contains(file_of(row.program)) && file_of(row.program) != main_;
         });
@@ -60,7 +61,8 @@ class BlockKeys {
     int of_row(const records::PositionLog& log, const records::LoggedPosition& row) {
         if (row.block == 0) return -1;
         const std::string program = program_of(row.program);
-        if (!by_number_ && !knows_program_ && !any_has_line(row.block)) refuse(log, row);
+        if (by_number_ ? !known_.contains(row.block) : !knows_program_ && !any_has_line(row.block))
+            refuse(log, row);
         return keys_.try_emplace({program, row.block}, static_cast<int>(keys_.size()))
             .first->second;
     }
@@ -90,24 +92,34 @@ class BlockKeys {
             return line < static_cast<int>(program.second.size());
         });
     }
-    bool all_are_numbers(const records::PositionLog& log) const {
-        std::map<int, bool> known;
-        for (const auto& [file, lines] : numbers_)
-            for (const int n : lines) known[n] = true;
-        return std::all_of(log.rows.begin(), log.rows.end(), [&](const auto& row) {
-            return row.block == 0 || known.contains(row.block);
-        });
+    /// A log of lines may name a few N numbers by chance, and one of N numbers may name one that
+    /// this program lacks: most of them decide.
+    bool most_are_numbers(const records::PositionLog& log) {
+        for (const auto& [file, lines] : numbers_) known_.insert(lines.begin(), lines.end());
+        std::set<int> told;
+        for (const records::LoggedPosition& row : log.rows)
+            if (row.block != 0) told.insert(row.block);
+        const auto are_known = std::count_if(told.begin(), told.end(),
+                                             [&](int block) { return known_.contains(block); });
+        return 2 * static_cast<std::size_t>(are_known) > told.size();
     }
     [[noreturn]] void refuse(const records::PositionLog& log,
                              const records::LoggedPosition& row) const {
-        throw InputError(fmt::format("block {}: {} has {} lines and no such N number; is this the "
-                                     "program that was logged?",
-                                     row.block, main_, numbers_.at(main_).size() - 1),
-                         {log.path, row.line, 0});
+        constexpr const char* asked = "is this the program that was logged?";
+        const auto lines = numbers_.at(main_).size() - 1;
+        throw InputError(
+            by_number_
+                ? fmt::format("block N{}: {} has most N numbers of this column, but not this one; "
+                              "{} (a column of lines is named 'line')",
+                              row.block, main_, asked)
+                : fmt::format("block {}: {} has {} lines and no such N number; {}", row.block,
+                              main_, lines, asked),
+            {log.path, row.line, 0});
     }
 
     std::string main_;
     std::map<std::string, std::vector<int>> numbers_;  ///< by file
+    std::set<int> known_;                              ///< N numbers of all programs
     std::map<std::pair<std::string, int>, int> keys_;
     bool by_number_ = false, knows_program_ = false;
 };

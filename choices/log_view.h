@@ -25,7 +25,7 @@ struct LogOfProgram {
 /// `texts`: the main program first, then the programs that it calls. The uncertainty is that of the
 /// log, else (dense samples) the scatter about a smooth motion from third differences, at least
 /// that of the printed increment, and never below `least_sigma`. A column `block` contains N
-/// numbers if all its values are N numbers of the program, else line numbers. Throws InputError
+/// numbers if most of its values are N numbers of the program, else line numbers. Throws InputError
 /// with the log's line for a block that the program does not have.
 LogOfProgram log_of_program(const records::PositionLog& log,
                             const std::vector<interpreter::ProgramText>& texts);

@@ -1,5 +1,14 @@
 #include "choices/store_table.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "base/alarm.h"
+#include "controller/settings.h"
+#include "emulator/run.h"
+#include "offsets/axis_numbers.h"
+#include "offsets/pivot_parameters.h"
+
 namespace trunnion::choices {
 
 namespace {
@@ -80,23 +89,23 @@ StoredNumber parameter(int number, double otherwise) {
         }};
 }
 
-StoredNumber axis_parameter(int number, Axis axis, int axis_number) {
+StoredNumber axis_parameter(int number, Axis axis) {
     return {std::to_string(number) + '.' + letter_of(axis), unit_of(axis),
-            [number, axis_number](Setup& s) -> double& {
-                offsets::Parameter& p = s.stores.parameters.entry[number];
-                return p.by_axis.try_emplace(axis_number, p.value).first->second;
-            }};
+            [number, axis](Setup& s) -> double& { return axis_value(s, number, axis); }};
+}
+
+void add_axis_parameter(int number, const std::string& what, const std::vector<Axis>& axes,
+                        std::vector<Store>& out) {
+    Store store{std::to_string(number), what, {}};
+    for (const Axis axis : axes) store.numbers.push_back(axis_parameter(number, axis));
+    out.push_back(std::move(store));
 }
 
 void add_reference_positions(const std::vector<Axis>& axes, std::vector<Store>& out) {
-    for (int number = 1240; number <= 1243; ++number) {
-        Store store{std::to_string(number),
-                    "reference position " + std::to_string(number - 1239) + " of G28 and G30",
-                    {}};
-        for (std::size_t k = 0; k < axes.size(); ++k)
-            store.numbers.push_back(axis_parameter(number, axes[k], static_cast<int>(k) + 1));
-        out.push_back(std::move(store));
-    }
+    for (int number = 1240; number <= 1243; ++number)
+        add_axis_parameter(
+            number, "reference position " + std::to_string(number - 1239) + " of G28 and G30", axes,
+            out);
 }
 
 void add_pivot(const Setup& setup, std::vector<Store>& out) {
@@ -117,17 +126,96 @@ void add_pivot(const Setup& setup, std::vector<Store>& out) {
     }
 }
 
+/// The two rotary axes of a table as the control believes them; empty for any other machine.
+std::optional<offsets::PivotParameters> table_pivot(const Setup& setup,
+                                                    const std::vector<Axis>& axes) {
+    try {
+        const auto pivot = offsets::decode_pivot(setup.stores.parameters, axes);
+        const bool is_table = pivot && pivot->unit == offsets::MechanicalUnit::table_table;
+        return is_table ? pivot : std::nullopt;
+    } catch (const Alarm&) {  // a program that needs them has this alarm, others run
+        return std::nullopt;
+    }
+}
+
+/// The coordinates across the line of an axis. All of a line are set when one is written, because
+/// a line lacking one is refused.
+void add_centreline(const offsets::PivotAxis& axis, const Vector3& point_mm, Store& store) {
+    std::vector<std::size_t> across;
+    for (std::size_t k = 0; k < 3; ++k)
+        if (std::abs(axis.line[static_cast<Eigen::Index>(k)]) <= 1.0 - 1e-9) across.push_back(k);
+    for (const std::size_t k : across)
+        store.numbers.push_back({std::string("centreline.") + letter_of(axis.axis) + '.' + "XYZ"[k],
+                                 "mm",
+                                 [across, k, point_mm, letter = axis.axis](Setup& s) -> double& {
+                                     setup::Centreline& line = s.centrelines[letter];
+                                     for (const std::size_t i : across)
+                                         if (!line[i])
+                                             line[i] = point_mm[static_cast<Eigen::Index>(i)];
+                                     return *line[k];
+                                 }});
+}
+
+/// One store: a place of the first axis is also the second one's reference.
+void add_centrelines(const offsets::PivotParameters& pivot, std::vector<Store>& out) {
+    Store store{"hurco.centreline", "centrelines of the part set-up", {}};
+    add_centreline(pivot.first, pivot.table_point_mm, store);
+    add_centreline(pivot.second, pivot.table_point_mm + pivot.table_offset_mm, store);
+    out.push_back(std::move(store));
+}
+
+/// End of the stroke of Z, where M25 goes without a height of its own; empty: no limit.
+std::optional<double> top_of_z(const Setup& setup) {
+    std::vector<controller::ControlAxis> axes = emulator::control_config(setup).axes;
+    controller::sort_axes(axes, setup.stores.parameters);
+    controller::take_strokes(axes, setup.stores.parameters);
+    const auto z = std::find_if(axes.begin(), axes.end(),
+                                [](const auto& axis) { return axis.axis == Axis::Z; });
+    return z == axes.end() ? std::nullopt : z->max;
+}
+
+void add_tool_change(const Setup& setup, std::vector<Store>& out) {
+    const auto& given = setup.hurco.tool_change_z_mm;
+    const std::optional<double> height = given ? given : top_of_z(setup);
+    if (!height) return;
+    const std::string name = "hurco.tool_change_z_mm";
+    out.push_back({name, "height of M25", {{name, "mm", [height](Setup& s) -> double& {
+                                                auto& own = s.hurco.tool_change_z_mm;
+                                                return own ? *own : own.emplace(*height);
+                                            }}}});
+}
+
 }  // namespace
+
+bool is_hurco(const Setup& setup) {
+    return setup.dialect.family == interpreter::DialectFamily::hurco;
+}
+
+double& axis_value(Setup& setup, int parameter, Axis axis) {
+    offsets::Parameters& all = setup.stores.parameters;
+    const std::vector<Axis> axes = axes_of(setup);
+    offsets::Parameter& p = all.entry[parameter];
+    if (p.by_axis.empty() && p.value != 0.0)  // one value for all axes
+        for (const Axis other : axes)
+            p.by_axis[offsets::number_of_named_axis(all, other, axes)] = p.value;
+    return p.by_axis[offsets::number_of_named_axis(all, axis, axes)];
+}
 
 std::vector<Store> store_table(const Setup& setup) {
     const std::vector<Axis> axes = axes_of(setup);
     std::vector<Store> out;
     add_work_offsets(setup, axes, out);
     add_tools(setup, out);
-    add_pivot(setup, out);
+    const auto pivot = is_hurco(setup) ? table_pivot(setup, axes) : std::nullopt;
+    if (pivot)
+        add_centrelines(*pivot, out);
+    else
+        add_pivot(setup, out);
+    if (is_hurco(setup)) add_tool_change(setup, out);
     add_reference_positions(axes, out);
     out.push_back({"5114", "retreat of G73", {parameter(5114, 1.0)}});
     out.push_back({"5115", "clearance of G83", {parameter(5115, 1.0)}});
+    add_axis_parameter(5440, "overrun of G60", axes, out);
     return out;
 }
 

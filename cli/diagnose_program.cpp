@@ -5,6 +5,7 @@
 #include "base/output_files.h"
 #include "base/read_file.h"
 #include "choices/control_gap.h"
+#include "cli/budget_options.h"
 #include "cli/command.h"
 #include "cli/long_work.h"
 #include "cli/notes.h"
@@ -33,14 +34,14 @@ choices::ControlGap found_gap(const ProgramDiagnosis& options, const setup::Setu
     return gap;
 }
 
-}  // namespace
+/// A search that is not finished has no rivals to weigh and names no cause.
+int report_ended() {
+    print_error("trunnion: {}: the search was not finished: nothing is judged and written\n",
+                reason_of(Interruption::asked() ? BudgetLimit::interruption : BudgetLimit::time));
+    return exit_limit;
+}
 
-int diagnose_program(const ProgramDiagnosis& options) {
-    if (options.setup.empty())
-        throw InputError(
-            "--setup is missing: a log must be evaluated with the control that wrote it");
-    const setup::Setup setup = open_setup(options.setup);
-    const choices::ControlGap gap = found_gap(options, setup);
+int write_gap(const ProgramDiagnosis& options, const choices::ControlGap& gap) {
     OutputFiles files;
     if (!options.out.empty()) files.add(options.out, setup::format_setup(gap.setup));
     if (!options.page.html.empty())
@@ -51,6 +52,21 @@ int diagnose_program(const ProgramDiagnosis& options) {
                                 : report::control_gap_text(gap));
     files.write();
     return options.limit_um >= 0.0 && gap.excess_um > options.limit_um ? exit_differs : exit_done;
+}
+
+}  // namespace
+
+int diagnose_program(const ProgramDiagnosis& options) {
+    if (options.setup.empty())
+        throw InputError(
+            "--setup is missing: a log must be evaluated with the control that wrote it");
+    const setup::Setup setup = open_setup(options.setup);
+    const Interruption interruption;
+    try {
+        return write_gap(options, found_gap(options, setup));
+    } catch (const choices::PathEnded&) {
+        return report_ended();
+    }
 }
 
 }  // namespace trunnion::cli

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/units.h"
 #include "imports/column_roles.h"
 #include "imports/log_columns.h"
+#include "imports/times.h"
 
 namespace trunnion::imports {
 namespace {
@@ -161,6 +163,37 @@ bool repeats(const records::LoggedPosition& row, const records::LoggedPosition& 
     return row.at == before.at && row.block == before.block && row.program == before.program;
 }
 
+/// Refuses times that run backwards: positions are compared in the order of the rows.
+class RowOrder {
+  public:
+    /// Not "t", which may be the tool.
+    explicit RowOrder(const TextTable& table)
+        : table_(table),
+          column_(find_first_column(
+              table,
+              {{"time", "zeit"}, {"timestamp", "zeitstempel"}, {"elapsed", "elapsedtime"}})) {}
+
+    void check(std::size_t row, const Cells& cells) {
+        if (!column_) return;
+        const records::TableCell& cell = cells[*column_];
+        const auto number = table_.find_number(cell.text);
+        const auto time = number ? number : seconds_of(cell.text);
+        if (!time) return;
+        // A time of day begins again at midnight.
+        const bool midnight = !number && last_ - *time > half_a_day_s;
+        if (*time < last_ && !midnight)
+            table_.line(row).fail("the times run backwards: the rows must stand in their order",
+                                  cell.column);
+        last_ = *time;
+    }
+
+  private:
+    static constexpr double half_a_day_s = 43200.0;
+    const TextTable& table_;
+    std::optional<std::size_t> column_;
+    double last_ = -std::numeric_limits<double>::infinity();
+};
+
 }  // namespace
 
 records::PositionLog read_position_log(std::string_view text, const std::string& path,
@@ -177,9 +210,11 @@ records::PositionLog read_position_log(std::string_view text, const std::string&
             columns.block->is_line ? records::BlockColumn::line : records::BlockColumn::number;
     log.ends = columns.motion.has_value();
     PrintedStep printed(columns);
+    RowOrder order(table);
     Cells cells;
     for (std::size_t i = 0; i < table.size(); ++i) {
         table.read(i, cells);
+        order.check(i, cells);
         const bool sample = columns.motion && cells[*columns.motion].text == "SAMPLE";
         log.ends = log.ends && !sample;
         printed.add(cells);

@@ -1,0 +1,72 @@
+// Block numbers of a log: N numbers or lines, and what is refused.
+#include "choices/log_view.h"
+
+#include "base/alarm.h"
+#include "tests/choices/log_bench.h"
+
+namespace trunnion {
+
+namespace {
+
+/// N numbers that are also numbers of lines, and more lines than N numbers.
+const std::string small_numbers =
+    "%\nO0031 (CLAMP)\n(REV B)\nN1 G21 G90 G54\nN2 G0 X4. Y9.\n"
+    "N3 G1 Z-3. F200\nN4 X22.\nN5 Y31. Z1.\nG0 Z40.\nM30\n%\n";
+const std::string tens = "N10 G21 G90\nN20 G0 X3.\nN30 Y8.\nN40 X0.\nN50 M30\n";
+
+records::PositionLog log_of_blocks(const std::vector<int>& blocks) {
+    records::PositionLog log;
+    log.path = "l.csv";
+    log.axes = {Axis::X};
+    log.blocks = records::BlockColumn::number;
+    log.step = 1e-4;
+    for (const int block : blocks) {
+        log.rows.emplace_back();
+        log.rows.back().block = block;
+        log.rows.back().line = static_cast<int>(log.rows.size()) + 1;
+    }
+    return log;
+}
+
+choices::LogOfProgram seen(const std::vector<int>& blocks, const std::string& program) {
+    return choices::log_of_program(log_of_blocks(blocks), {log_bench::program_of(program)});
+}
+
+/// Message and row of the refusal.
+std::pair<std::string, int> refused(const std::vector<int>& blocks, const std::string& program) {
+    try {
+        (void)seen(blocks, program);
+    } catch (const InputError& e) {
+        return {e.message, e.where.line};
+    }
+    return {};
+}
+
+}  // namespace
+
+TEST_CASE("the numbers of blocks are N numbers if most of them are N numbers of the program") {
+    for (const auto& blocks : {std::vector{2, 3, 4, 5}, {2, 2, 0, 3}}) {
+        const choices::LogOfProgram log = seen(blocks, small_numbers);
+        REQUIRE(log.notes.size() == 1);
+        CHECK_THAT(log.notes[0], Catch::Contains("are N numbers of the program"));
+        CHECK(log.view.key_of({"", 5}) == log.view.rows[0].key);  // N2 is on line 5
+    }
+    const choices::LogOfProgram lines = seen({5, 6, 7, 8, 9}, small_numbers);
+    CHECK(lines.notes.empty());
+    CHECK(lines.view.key_of({"", 5}) == lines.view.rows[0].key);
+}
+
+TEST_CASE("an N number that the program lacks is refused by its name and row") {
+    const auto [text, row] = refused({2, 2, 3, 4, 9, 5}, small_numbers);  // line 9 exists
+    CHECK_THAT(text, Catch::StartsWith(
+                         "block N9: p.nc has most N numbers of this column, but not this one"));
+    CHECK(row == 6);
+    const auto [other, last] = refused({20, 30, 40, 999}, tens);  // N20 exists, line 20 does not
+    CHECK_THAT(other, Catch::StartsWith("block N999:"));
+    CHECK(last == 5);
+    const auto [lines, first] = refused({2, 700, 800}, tens);
+    CHECK_THAT(lines, Catch::StartsWith("block 700: p.nc has 5 lines and no such N number"));
+    CHECK(first == 3);
+}
+
+}  // namespace trunnion
