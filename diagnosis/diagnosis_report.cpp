@@ -123,6 +123,20 @@ DrawSetting draw_setting(const Outcome& f, const Written& written, std::uint64_t
             seed};
 }
 
+/// The first readings that were set aside, by their index and the line of their file.
+std::string set_aside_words(const Outcome& f) {
+    constexpr int most = 10;
+    std::string words;
+    int count = 0;
+    for (std::size_t i = 0; i < f.used.size(); ++i) {
+        if (f.used[i] || ++count > most) continue;
+        const records::Reading& row = f.prepared.table.rows[i];
+        words += fmt::format("{}{}", words.empty() ? "" : ", ", row.index);
+        if (row.line > 0) words += fmt::format(" (line {})", row.line);
+    }
+    return "set aside, because they fit nothing: readings " + words + (count > most ? ", .." : "");
+}
+
 void describe_size(const Outcome& f, const Solution& solution, Diagnosis& d) {
     const identification::BaseModel& base = f.prepared.base;
     d.readings = f.prepared.replay.size();
@@ -154,6 +168,7 @@ void describe_size(const Outcome& f, const Solution& solution, Diagnosis& d) {
     d.inseparable = base.inseparable;
     d.sides = f.prepared.sides;
     d.notes = base.notes;
+    if (d.outliers > 0) d.notes.push_back(set_aside_words(f));
     for (const auto& entry : f.design.groups()) {
         if (!entry.group.effect || entry.hidden || entry.group.is_change()) continue;
         const effects::EffectIdentity& identity = *entry.group.effect;

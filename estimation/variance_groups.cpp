@@ -332,7 +332,7 @@ std::vector<GroupInformation> each_beside_others(const GroupEquations& equations
 BestVariances maximise_likelihood(const GroupEquations& equations, Variances start,
                                   const NoisePrior& prior, int sweeps) {
     constexpr int most_sweeps = 30;
-    constexpr double far = 2.0;  // from the maximum: another sweep may change which model is best
+    constexpr double far = 10.0;  // from the maximum: large effects in small noise
     Step now(equations, not_absent(std::move(start)), prior);
     double last = 0.0;
     for (int k = 0; k < sweeps || (last > far && k < most_sweeps); ++k) {

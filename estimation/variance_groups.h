@@ -135,7 +135,7 @@ struct BestVariances {
 /// Variances that maximise the restricted likelihood, from `start`. In each sweep every group gets
 /// its best size beside the others at their previous sizes, then the noise is estimated from the
 /// remainder. A sweep that lowers the likelihood is halved (in logarithms). Ends when a sweep gains
-/// less than 0.01, or after `sweeps` sweeps if the last gained less than 2: of a large effect in
+/// less than 0.01, or after `sweeps` sweeps if the last gained less than 10: of a large effect in
 /// little noise each sweep finds a part.
 BestVariances maximise_likelihood(const GroupEquations& equations, Variances start,
                                   const NoisePrior& prior, int sweeps);
