@@ -9,8 +9,10 @@
 #include <optional>
 
 #include "base/random.h"
+#include "choices/block_texts.h"
 #include "choices/folds.h"
 #include "choices/gap_search.h"
+#include "choices/row_fit.h"
 #include "controller/alarms.h"
 #include "estimation/distributions.h"
 
@@ -30,13 +32,8 @@ constexpr double least_told_mm = 0.01;
 constexpr double chance =
     1e-6;  ///< p of a small excess over the noise that is searched all the same
 constexpr double quite_sure = 0.8;
-constexpr std::size_t least_differences = 10;  ///< of rows, for their scatter
-constexpr double median_of_square = 0.7;       ///< of a normal variable in two or three directions
-constexpr double visible = 9.0;                ///< loss of an axis: a row beyond it shows a gap
-constexpr double far_smaller = 1e-4;           ///< of a row's loss: what an effect beside may leave
-constexpr double most_scatter = 0.05;          ///< of the gap: a larger scatter is no noise
-constexpr double all_rows = 0.95;              ///< part of the rows that an explanation reaches
-constexpr double surely_more = 1e-9;           ///< p of a mean that no noise has
+constexpr double all_rows = 0.95;     ///< part of the rows that an explanation reaches
+constexpr double surely_more = 1e-9;  ///< p of a mean that no noise has
 
 double um(double mm) {
     return 1000.0 * mm;
@@ -51,27 +48,6 @@ std::vector<int> blocks_of(const LogView& log, const ComparedRun& run) {
     for (std::size_t row = 0; row < out.size(); ++row) out[row] = log.rows[row].key + 1;
     return out;
 }
-
-class Texts {
-  public:
-    Texts(const interpreter::ProgramText& main, const std::vector<interpreter::ProgramText>& all)
-        : main_(main), all_(all) {}
-    std::string block(const PathBlock& block) const {
-        for (const interpreter::ProgramText& text : all_)
-            if (text.name == block.program) return line_of(text.text, block.line);
-        return line_of(main_.text, block.line);
-    }
-
-  private:
-    static std::string line_of(std::string_view text, int line) {
-        for (int k = 1; k < line && !text.empty(); ++k)
-            text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
-        std::string out(text.substr(0, text.find_first_of("\r\n")));
-        return out;
-    }
-    const interpreter::ProgramText& main_;
-    const std::vector<interpreter::ProgramText>& all_;
-};
 
 /// Creates the results from runs of one log.
 class Teller {
@@ -189,31 +165,6 @@ class Teller {
     const std::vector<int>& blocks_;
 };
 
-/// Scatter of the samples about the path, from one row of a block to the next: a constant
-/// difference is none. Nothing without enough such rows.
-std::optional<double> scatter_about(const LogView& view, const ComparedRun& run,
-                                    const std::vector<int>& blocks) {
-    std::vector<const Pair*> at(view.rows.size(), nullptr);
-    for (const Pair& pair : run.pairs) at[pair.row] = &pair;
-    std::vector<double> squares;
-    for (std::size_t row = 1; row < at.size(); ++row) {
-        if (!at[row] || !at[row - 1] || blocks[row] != blocks[row - 1]) continue;
-        // A sample that slides along its segment has no difference in that direction.
-        const bool slides = at[row]->slides && at[row - 1]->slides;
-        const double axes = static_cast<double>(view.axes.size()) - (slides ? 1.0 : 0.0);
-        double sum = 0.0;
-        for (const Axis axis : view.axes) {
-            const double d = at[row]->apart[axis] - at[row - 1]->apart[axis];
-            sum += d * d;
-        }
-        if (axes > 0.0) squares.push_back(sum / (2.0 * axes));
-    }
-    if (squares.size() < least_differences) return std::nullopt;
-    const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
-    std::nth_element(squares.begin(), middle, squares.end());
-    return std::sqrt(*middle / median_of_square);
-}
-
 bool is_quiet(const LogOfProgram& log, const ComparedRun& run, double noise_loss) {
     double worst = 0.0;
     for (const double loss : run.losses) worst = std::max(worst, loss);
@@ -236,39 +187,6 @@ struct Judged {
     double loss_before;
     double row_limit;  ///< loss of a row that noise may have
 };
-
-/// Part of the rows with a visible gap that an explanation brings down to noise, or to far less. An
-/// exact cause spoils no row: such a row counts as several.
-double reached(const std::vector<double>& before, const std::vector<double>& after,
-               double row_limit) {
-    constexpr double spoiled_rows = 5.0;
-    double rows = 0.0, good = 0.0;
-    for (std::size_t row = 0; row < before.size(); ++row) {
-        const bool fits = after[row] <= std::max(row_limit, far_smaller * before[row]);
-        if (before[row] > row_limit) {
-            ++rows;
-            good += fits ? 1.0 : 0.0;
-        } else if (!fits) {
-            rows += spoiled_rows;
-        }
-    }
-    return rows > 0.0 ? good / rows : 1.0;
-}
-
-/// Loss of a row that noise may have. Noise that nobody stated may be larger than the printed
-/// increment: then it is what the rows scatter from one to the next beside the explanation.
-double row_limit_of(const LogOfProgram& log, const ComparedRun& base, const ComparedRun& explained,
-                    const std::vector<int>& blocks, double gap) {
-    const double axes = static_cast<double>(log.view.axes.size());
-    double ratio = 1.0;
-    if (log.noise != LogNoise::given) {
-        const double scatter = std::min({scatter_about(log.view, explained, blocks).value_or(0.0),
-                                         scatter_about(log.view, base, blocks).value_or(0.0),
-                                         most_scatter * gap / std::sqrt(axes)});
-        ratio = std::max(1.0, scatter / log.sigma);
-    }
-    return visible * axes * ratio * ratio;
-}
 
 /// Limits the probability by the number of blocks that depend on the cause, and by a part that is
 /// explained.
@@ -417,25 +335,6 @@ void take_back(const GapQuestion& question, ControlGap& gap) {
     gap.after_rms_um = gap.rms_um;
 }
 
-/// Adds a note if the log agrees in another unit of length.
-void tell_units(const Comparer& comparer, const setup::Setup& setup, const ComparedRun& base,
-                ControlGap& gap) {
-    struct Unit {
-        double mm;
-        const char* name;
-    };
-    constexpr Unit units[] = {{25.4, "inches"}, {0.001, "micrometres"}, {1000.0, "metres"}};
-    constexpr double agrees = 1e-3;  // of the loss
-    for (const Unit& unit : units) {
-        LogView view = comparer.log();
-        for (LogView::Row& row : view.rows)
-            for (const Axis axis : view.axes)
-                if (!is_rotary(axis)) row.at[axis] *= unit.mm;
-        if (comparer.on(view).run(setup).loss < agrees * base.loss)
-            gap.notes.push_back(fmt::format("the log agrees if its lengths are {}", unit.name));
-    }
-}
-
 }  // namespace
 
 const char* to_string(GapVerdict verdict) {
@@ -481,7 +380,9 @@ ControlGap control_gap(const GapQuestion& question, interpreter::ProgramSource& 
                  row_limit_of(log, base, found.run, blocks, 1e-3 * gap.rms_um)},
                 gap);
     if (quiet && !is_convincing(gap)) take_back(question, gap);
-    if (gap.verdict == GapVerdict::unexplained) tell_units(comparer, question.setup, base, gap);
+    if (gap.verdict == GapVerdict::unexplained)
+        if (const char* unit = agreeing_unit(comparer, question.setup, base.loss))
+            gap.notes.push_back(fmt::format("the log agrees if its lengths are {}", unit));
     return gap;
 }
 

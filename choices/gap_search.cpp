@@ -174,10 +174,12 @@ class Searcher {
     void weigh_stores_together() {
         const auto is_store = [](const GapStep& step) { return step.chosen.store; };
         if (std::none_of(found_.steps.begin(), found_.steps.end(), is_store)) return;
-        JointStores joint = explained_together(
-            comparer_, options_, {found_.setup, found_.run}, blocks_,
-            [this](double loss, std::size_t numbers) { return scorer_.score(loss, numbers); },
-            least_gain, rival_gap);
+        const SetScore score = [this](double loss, std::size_t numbers) {
+            return scorer_.score(loss, numbers);
+        };
+        JointStores joint =
+            explained_together({comparer_, options_, blocks_, score, least_gain, rival_gap},
+                               {found_.setup, found_.run});
         std::erase_if(found_.steps, is_store);
         found_.setup = std::move(joint.control.setup);
         found_.run = std::move(joint.control.run);

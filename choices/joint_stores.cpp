@@ -197,18 +197,16 @@ class Selection {
 
 class Joint {
   public:
-    Joint(const Comparer& comparer, const setup::Setup& start, FittedControl now,
-          const std::vector<int>& blocks, const SetScore& score, double least_odds,
-          double rival_gap)
-        : comparer_(comparer),
-          start_(start),
+    Joint(const StoreQuestion& question, FittedControl now)
+        : comparer_(question.comparer),
+          start_(question.start),
           now_(std::move(now)),
-          blocks_(blocks),
-          score_(score),
-          least_odds_(least_odds),
-          rival_gap_(rival_gap),
-          table_(store_table(start)),
-          before_(comparer.run(start)) {}
+          blocks_(question.blocks),
+          score_(question.score),
+          least_odds_(question.least_odds),
+          rival_gap_(question.rival_gap),
+          table_(store_table(start_)),
+          before_(comparer_.run(start_)) {}
 
     JointStores explain() {
         see();
@@ -347,10 +345,8 @@ class Joint {
 
 }  // namespace
 
-JointStores explained_together(const Comparer& comparer, const setup::Setup& start,
-                               FittedControl now, const std::vector<int>& blocks,
-                               const SetScore& score, double least_odds, double rival_gap) {
-    return Joint(comparer, start, std::move(now), blocks, score, least_odds, rival_gap).explain();
+JointStores explained_together(const StoreQuestion& question, FittedControl now) {
+    return Joint(question, std::move(now)).explain();
 }
 
 }  // namespace trunnion::choices

@@ -26,17 +26,21 @@ struct JointStores {
 /// Score of a set: of its loss and the number of its numbers.
 using SetScore = std::function<double(double loss, std::size_t numbers)>;
 
+struct StoreQuestion {
+    const Comparer& comparer;
+    const setup::Setup& start;  ///< the control with its options and its own stores
+    const std::vector<int>& blocks;
+    SetScore score;
+    double least_odds;  ///< of the score: what a further store costs
+    double rival_gap;   ///< of the score: a set that is closer is a rival
+};
+
 /// Two stale stores may look like a third with another value, as long as they are sought one after
 /// the other. So the numbers of all stores are weighed at once: at the run `now` their derivatives
 /// are known, and with these sets are compared by least squares without another run: a number or
 /// a store more, less, or in place of another, or one store in place of two. The best set is fitted
-/// through the control, and the comparison repeated there.
-///
-/// `start`: the control with its options and its own stores. `now`: with the stores found so far;
-/// what is returned scores at least as much. `least_odds`: of the score, a further store costs so
-/// much; `rival_gap`: a set that is closer is a rival.
-JointStores explained_together(const Comparer& comparer, const setup::Setup& start,
-                               FittedControl now, const std::vector<int>& blocks,
-                               const SetScore& score, double least_odds, double rival_gap);
+/// through the control, and the comparison repeated there. `now`: with the stores found so far;
+/// what is returned scores at least as much.
+JointStores explained_together(const StoreQuestion& question, FittedControl now);
 
 }  // namespace trunnion::choices

@@ -1,0 +1,89 @@
+#include "choices/row_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trunnion::choices {
+
+namespace {
+
+constexpr std::size_t least_differences = 10;  ///< of rows, for their scatter
+constexpr double median_of_square = 0.7;       ///< of a normal variable in two or three directions
+constexpr double visible = 9.0;                ///< loss of an axis: a row beyond it shows a gap
+constexpr double far_smaller = 1e-4;           ///< of a row's loss: what an effect beside may leave
+constexpr double most_scatter = 0.05;          ///< of the gap: a larger scatter is no noise
+
+}  // namespace
+
+/// Scatter of the samples about the path, from one row of a block to the next: a constant
+/// difference is none. Nothing without enough such rows.
+std::optional<double> scatter_about(const LogView& view, const ComparedRun& run,
+                                    const std::vector<int>& blocks) {
+    std::vector<const Pair*> at(view.rows.size(), nullptr);
+    for (const Pair& pair : run.pairs) at[pair.row] = &pair;
+    std::vector<double> squares;
+    for (std::size_t row = 1; row < at.size(); ++row) {
+        if (!at[row] || !at[row - 1] || blocks[row] != blocks[row - 1]) continue;
+        // A sample that slides along its segment has no difference in that direction.
+        const bool slides = at[row]->slides && at[row - 1]->slides;
+        const double axes = static_cast<double>(view.axes.size()) - (slides ? 1.0 : 0.0);
+        double sum = 0.0;
+        for (const Axis axis : view.axes) {
+            const double d = at[row]->apart[axis] - at[row - 1]->apart[axis];
+            sum += d * d;
+        }
+        if (axes > 0.0) squares.push_back(sum / (2.0 * axes));
+    }
+    if (squares.size() < least_differences) return std::nullopt;
+    const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
+    std::nth_element(squares.begin(), middle, squares.end());
+    return std::sqrt(*middle / median_of_square);
+}
+
+double reached(const std::vector<double>& before, const std::vector<double>& after,
+               double row_limit) {
+    constexpr double spoiled_rows = 5.0;
+    double rows = 0.0, good = 0.0;
+    for (std::size_t row = 0; row < before.size(); ++row) {
+        const bool fits = after[row] <= std::max(row_limit, far_smaller * before[row]);
+        if (before[row] > row_limit) {
+            ++rows;
+            good += fits ? 1.0 : 0.0;
+        } else if (!fits) {
+            rows += spoiled_rows;
+        }
+    }
+    return rows > 0.0 ? good / rows : 1.0;
+}
+
+double row_limit_of(const LogOfProgram& log, const ComparedRun& base, const ComparedRun& explained,
+                    const std::vector<int>& blocks, double gap) {
+    const double axes = static_cast<double>(log.view.axes.size());
+    double ratio = 1.0;
+    if (log.noise != LogNoise::given) {
+        const double scatter = std::min({scatter_about(log.view, explained, blocks).value_or(0.0),
+                                         scatter_about(log.view, base, blocks).value_or(0.0),
+                                         most_scatter * gap / std::sqrt(axes)});
+        ratio = std::max(1.0, scatter / log.sigma);
+    }
+    return visible * axes * ratio * ratio;
+}
+
+const char* agreeing_unit(const Comparer& comparer, const setup::Setup& setup, double loss) {
+    struct Unit {
+        double mm;
+        const char* name;
+    };
+    constexpr Unit units[] = {{25.4, "inches"}, {0.001, "micrometres"}, {1000.0, "metres"}};
+    constexpr double agrees = 1e-3;  // of the loss
+    for (const Unit& unit : units) {
+        LogView view = comparer.log();
+        for (LogView::Row& row : view.rows)
+            for (const Axis axis : view.axes)
+                if (!is_rotary(axis)) row.at[axis] *= unit.mm;
+        if (comparer.on(view).run(setup).loss < agrees * loss) return unit.name;
+    }
+    return nullptr;
+}
+
+}  // namespace trunnion::choices

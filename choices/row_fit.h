@@ -1,0 +1,30 @@
+// How well the rows of a log fit: their scatter, what noise may do, and which rows a cause reaches.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "choices/compared_run.h"
+#include "choices/log_view.h"
+
+namespace trunnion::choices {
+
+/// Scatter of the samples about the path, from one row of a block to the next: a constant
+/// difference is none. Nothing without enough such rows.
+std::optional<double> scatter_about(const LogView& view, const ComparedRun& run,
+                                    const std::vector<int>& blocks);
+
+/// Part of the rows with a visible gap that an explanation brings down to noise, or to far less. An
+/// exact cause spoils no row: such a row counts as several.
+double reached(const std::vector<double>& before, const std::vector<double>& after,
+               double row_limit);
+
+/// Loss of a row that noise may have. Noise that nobody stated may be larger than the printed
+/// increment: then it is what the rows scatter from one to the next beside the explanation.
+double row_limit_of(const LogOfProgram& log, const ComparedRun& base, const ComparedRun& explained,
+                    const std::vector<int>& blocks, double gap);
+
+/// Another unit of length in which the log agrees; nullptr: none. `loss`: in mm.
+const char* agreeing_unit(const Comparer& comparer, const setup::Setup& setup, double loss);
+
+}  // namespace trunnion::choices
