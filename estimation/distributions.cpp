@@ -8,7 +8,8 @@ namespace trunnion::estimation {
 
 double chi_squared_tail(double value, double freedom) {
     if (!(freedom > 0.0) || !(value > 0.0)) return 1.0;
-    // Far below the mean the tail is 1, where the library's series needs factorials beyond its range.
+    // Far below the mean the tail is 1, where the library's series needs factorials beyond its
+    // range.
     if (freedom > 100.0 && value < 0.1 * freedom) return 1.0;
     return std::isinf(value) ? 0.0 : boost::math::gamma_q(0.5 * freedom, 0.5 * value);
 }
