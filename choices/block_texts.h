@@ -12,9 +12,10 @@
 namespace trunnion::choices {
 
 /// Refers to the programs, which must outlive it.
-class Texts {
+class BlockTexts {
   public:
-    Texts(const interpreter::ProgramText& main, const std::vector<interpreter::ProgramText>& all)
+    BlockTexts(const interpreter::ProgramText& main,
+               const std::vector<interpreter::ProgramText>& all)
         : main_(main), all_(all) {}
     std::string block(const PathBlock& block) const {
         for (const interpreter::ProgramText& text : all_)

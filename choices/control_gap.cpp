@@ -27,11 +27,11 @@ constexpr double explained_from = 0.8, partly_from = 0.5;
 constexpr double least_left = 0.005;  ///< of the gap: minimum for a block listed as remaining
 constexpr int draws = 400;
 constexpr double only_one_block = 2.0 / 3.0;  ///< most that a single block can prove
-constexpr double claimed = 0.5;
-constexpr double least_told_mm = 0.01;
+constexpr double claimed = 0.5;               ///< least probability of a claim
+constexpr double least_told_mm = 0.01;        ///< distance of samples that is worth a note
 constexpr double chance =
     1e-6;  ///< p of a small excess over the noise that is searched all the same
-constexpr double quite_sure = 0.8;
+constexpr double quite_sure = 0.8;    ///< probability of a cause of such an excess
 constexpr double all_rows = 0.95;     ///< part of the rows that an explanation reaches
 constexpr double surely_more = 1e-9;  ///< p of a mean that no noise has
 
@@ -52,7 +52,7 @@ std::vector<int> blocks_of(const LogView& log, const ComparedRun& run) {
 /// Creates the results from runs of one log.
 class Teller {
   public:
-    Teller(const LogOfProgram& log, const Texts& texts, const std::vector<int>& blocks)
+    Teller(const LogOfProgram& log, const BlockTexts& texts, const std::vector<int>& blocks)
         : log_(log), texts_(texts), blocks_(blocks) {}
 
     double mean_um(const std::vector<double>& losses) const {
@@ -161,7 +161,7 @@ class Teller {
     }
 
     const LogOfProgram& log_;
-    const Texts& texts_;
+    const BlockTexts& texts_;
     const std::vector<int>& blocks_;
 };
 
@@ -369,7 +369,7 @@ ControlGap control_gap(const GapQuestion& question, interpreter::ProgramSource& 
     const Comparer comparer = compare();
     const ComparedRun base = comparer.run(question.setup);
     gap.blocks = std::set<int>(blocks.begin(), blocks.end()).size();
-    const Texts texts(question.program, all);
+    const BlockTexts texts(question.program, all);
     const Teller teller(log, texts, blocks);
     tell_base(log, base, teller, gap);
     const bool quiet = is_quiet(log, base, teller.noise_loss());

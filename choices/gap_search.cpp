@@ -200,8 +200,8 @@ class Searcher {
                        std::move(cause.what),
                        take,
                        std::move(cause.numbers),
-                       found_.run,
-                       found_.left_out,
+                       {},
+                       {},
                        0.0,
                        true};
         return step;

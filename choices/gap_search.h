@@ -33,9 +33,10 @@ struct GapStep {
 struct GapSearch {
     std::vector<GapStep> steps;
     setup::Setup setup;
-    ComparedRun run;               ///< with all steps
-    std::vector<double> left_out;  ///< its losses, with the folds left out of each step's decision
-                                   ///< and fit
+    ComparedRun run;  ///< with all steps
+    /// Losses of the rows, each fold left out of the decisions for options, or, as soon as there
+    /// are stores, of the fit of their numbers: options beside stores count as decided.
+    std::vector<double> left_out;
     std::vector<std::string> unseen;
 };
 

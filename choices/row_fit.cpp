@@ -15,8 +15,6 @@ constexpr double most_scatter = 0.05;          ///< of the gap: a larger scatter
 
 }  // namespace
 
-/// Scatter of the samples about the path, from one row of a block to the next: a constant
-/// difference is none. Nothing without enough such rows.
 std::optional<double> scatter_about(const LogView& view, const ComparedRun& run,
                                     const std::vector<int>& blocks) {
     std::vector<const Pair*> at(view.rows.size(), nullptr);

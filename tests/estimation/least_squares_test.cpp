@@ -21,6 +21,11 @@ TEST_CASE("distribution tails", "[estimation]") {
     CHECK(estimation::student_probability(2.131846786326649, 4) == Approx(0.95));
     CHECK(estimation::student_probability(-2.131846786326649, 4) == Approx(0.05));
     CHECK(estimation::chi_squared_tail(1e6, 0) == 1.0);
+    // A log that agrees to its last digit: nothing left of thousands of terms.
+    for (const double left : {1e-300, 1e-12, 1.0, 390.0})
+        CHECK(estimation::chi_squared_tail(left, 3957) == 1.0);
+    CHECK(estimation::chi_squared_tail(9.9, 100) == 1.0);
+    CHECK(estimation::chi_squared_tail(10.1, 100) == Approx(1.0));
     // What cannot be computed is no evidence.
     for (const double none : {0.0, -2.0, std::nan("")}) {
         CHECK(estimation::f_tail(3.0, none, 10) == 1.0);

@@ -180,6 +180,29 @@ TEST_CASE("the maximum of the likelihood is the same from far away", "[estimatio
         }
 }
 
+TEST_CASE("a large effect in little noise is followed to its maximum in two sweeps of the caller",
+          "[estimation]") {
+    // As an encoder of milliradians with a noise of microradians: a smooth decreasing group.
+    SeededNoise random{11};
+    const Eigen::Index rows = 150, count = 44;
+    Eigen::MatrixXd columns = normals(rows, count, random);
+    for (Eigen::Index k = 0; k < count; ++k)
+        columns.col(k) /= 1.0 + std::pow(static_cast<double>(k) / 8.0, 2);
+    const Eigen::VectorXd data =
+        2000.0 * columns * normals(count, 1, random) + 1.0 * normals(rows, 1, random);
+    const estimation::GroupEquations equations{columns.transpose() * columns,
+                                               columns.transpose() * data,
+                                               data.squaredNorm(),
+                                               static_cast<double>(rows),
+                                               {count}};
+    const estimation::NoisePrior prior{0.0, 0.7};
+    const estimation::Variances start{{1.0}, 5000.0};
+    const auto few = estimation::maximise_likelihood(equations, start, prior, 2);
+    const auto many = estimation::maximise_likelihood(equations, start, prior, 60);
+    CHECK(few.likelihood > many.likelihood - 10.0);
+    CHECK(few.variances.nu == Approx(1.0).epsilon(0.2));
+}
+
 TEST_CASE("mean and covariance are those of the ridge fit", "[estimation]") {
     const Bench bench;
     const estimation::GroupEquations equations = bench.equations();
