@@ -24,12 +24,14 @@ PageTable cause_table(const choices::ControlGap& gap) {
         std::string what = c.what;
         for (const choices::FittedNumber& n : c.numbers) what += "; " + number_words(n);
         const std::string rivals = fmt::format("{}", fmt::join(c.rivals, ", "));
+        const std::string left_out = fmt::format("{} to {}", length_words(c.heldout.before_um),
+                                                 length_words(c.heldout.after_um));
+        const std::string shrink = fmt::format("{} ({} to {})", percent(c.heldout.shrink),
+                                               percent(c.heldout.low), percent(c.heldout.high));
+        // What no cause explains predicts nothing.
         table.rows.push_back({c.name, what, percent(c.share), probability_words(c.probability),
-                              rivals.empty() ? "none" : rivals,
-                              fmt::format("{} to {}", length_words(c.heldout.before_um),
-                                          length_words(c.heldout.after_um)),
-                              fmt::format("{} ({} to {})", percent(c.heldout.shrink),
-                                          percent(c.heldout.low), percent(c.heldout.high))});
+                              rivals.empty() ? "none" : rivals, c.known ? left_out : "",
+                              c.known ? shrink : ""});
     }
     return table;
 }

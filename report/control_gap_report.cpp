@@ -120,10 +120,12 @@ std::string verdict_sentence(const choices::ControlGap& gap) {
     if (gap.verdict == GapVerdict::unexplained)
         return size + "; no choice and no store of this control explains it.";
     std::vector<std::string> names;
-    for (const choices::GapCause& cause : gap.causes) names.push_back(cause.name);
-    return fmt::format("{}. {} explain{} {} % of it on blocks left out.", size,
+    for (const choices::GapCause& cause : gap.causes)
+        if (cause.known) names.push_back(cause.name);
+    return fmt::format("{}. {} explain{} {} % of it on blocks left out{}.", size,
                        fmt::join(names, " and "), names.size() == 1 ? "s" : "",
-                       percent(gap.explained));
+                       percent(gap.explained),
+                       names.size() < gap.causes.size() ? "; what stays is more than noise" : "");
 }
 
 std::string control_gap_json(const choices::ControlGap& gap, const std::vector<FileRead>& inputs) {

@@ -1,0 +1,25 @@
+// Sentence above the causes of a control's gap.
+#include <catch2/catch.hpp>
+
+#include "report/control_gap_report.h"
+
+namespace trunnion {
+
+TEST_CASE("what no cause explains is not told as a cause", "[report]") {
+    choices::ControlGap gap;
+    gap.verdict = choices::GapVerdict::partly_explained;
+    gap.explained = 0.99;
+    gap.causes.resize(2);
+    gap.causes[0].name = "G54";
+    gap.causes[1].name = "unknown";
+    gap.causes[1].known = false;
+    const std::string partly = report::verdict_sentence(gap);
+    CHECK_THAT(partly, Catch::Contains("G54 explains 99 % of it") &&
+                           Catch::Contains("what stays is more than noise") &&
+                           !Catch::Contains("unknown"));
+    gap.causes.pop_back();
+    gap.verdict = choices::GapVerdict::explained;
+    CHECK_THAT(report::verdict_sentence(gap), !Catch::Contains("more than noise"));
+}
+
+}  // namespace trunnion
