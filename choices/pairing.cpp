@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "choices/space.h"
+#include "choices/way_match.h"
+
 namespace trunnion::choices {
 
 namespace {
@@ -14,80 +17,69 @@ using Indices = std::vector<std::size_t>;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr std::size_t most_cells = 4'000'000;  ///< of one block's table; beyond it, only a band is
                                                ///< computed
-constexpr std::size_t least_half_band = 40;
-constexpr std::size_t spacing_rows = 2;  ///< rows on each side for the distance of samples
+constexpr std::size_t spacing_rows = 2;        ///< rows on each side for the distance of samples
+constexpr std::size_t edge_nodes = 4;          ///< of a band: too near to its edge
+constexpr std::size_t wider = 4, widest = 64;  ///< of the margins of a band that was narrow
+constexpr double noise_sigmas = 6.0;           ///< of a row: less adds no way
 
-/// Positions of the log's axes only.
-class Space {
-  public:
-    explicit Space(const std::vector<Axis>& axes) {
-        for (const Axis axis : axes) index_.push_back(index_of(axis));
-    }
-    double square(const ControlPosition& a, const ControlPosition& b) const {
-        double sum = 0.0;
-        for (const std::size_t i : index_)
-            sum += (a.value[i] - b.value[i]) * (a.value[i] - b.value[i]);
-        return sum;
-    }
-    /// Fraction of the point on the line a-b nearest to p.
-    double nearest(const ControlPosition& a, const ControlPosition& b,
-                   const ControlPosition& p) const {
-        double along = 0.0, length = 0.0;
-        for (const std::size_t i : index_) {
-            const double way = b.value[i] - a.value[i];
-            along += (p.value[i] - a.value[i]) * way;
-            length += way * way;
-        }
-        return length > 0.0 ? std::clamp(along / length, 0.0, 1.0) : 1.0;
-    }
-    ControlPosition between(const ControlPosition& a, const ControlPosition& b, double s) const {
-        ControlPosition out;
-        for (const std::size_t i : index_)
-            out.value[i] = a.value[i] + s * (b.value[i] - a.value[i]);
-        return out;
-    }
-    ControlPosition apart(const ControlPosition& log, const ControlPosition& control) const {
-        ControlPosition out;
-        for (const std::size_t i : index_) out.value[i] = log.value[i] - control.value[i];
-        return out;
-    }
-
-  private:
-    Indices index_;
-};
+enum Step : std::uint8_t { none, both, row, node };
 
 /// The evaluated part of a table of m by n cells, and the step into each cell.
 class Band {
   public:
-    /// `log_way`, `path_way`: position of each row and node along its path, as fractions of the
-    /// total.
-    Band(const std::vector<double>& log_way, const std::vector<double>& path_way) {
-        const std::size_t m = log_way.size(), n = path_way.size();
-        const std::size_t half =
-            m * n <= most_cells ? n : std::max(least_half_band, most_cells / m);
-        low_.assign(m + 1, 0);
-        high_.assign(m + 1, std::min(n, half));
-        std::size_t centre = 0;
-        for (std::size_t i = 1; i <= m; ++i) {
-            while (centre < n && path_way[centre] < log_way[i - 1]) ++centre;
-            low_[i] = std::min(centre > half ? centre - half : 0, high_[i - 1]);
-            high_[i] = i == m ? n : std::max(high_[i - 1], std::min(n, centre + half));
+    Band(std::size_t m, std::size_t n) : low_(m + 1, 0), high_(m + 1, n) { lay(); }
+    /// `nodes`: those that each row may belong to, of n.
+    Band(const Spans& nodes, std::size_t n) : low_{0}, high_{nodes.high.front() + 1} {
+        for (std::size_t i = 0; i < nodes.low.size(); ++i) {
+            low_.push_back(nodes.low[i]);
+            high_.push_back(nodes.high[i] + 1);
         }
-        offset_.assign(m + 1, 0);
-        for (std::size_t i = 1; i <= m; ++i)
-            offset_[i] = offset_[i - 1] + high_[i - 1] - low_[i - 1] + 1;
-        step_.assign(offset_[m] + high_[m] - low_[m] + 1, 0);
+        high_.back() = n;
+        lay();
     }
     std::size_t low(std::size_t i) const { return low_[i]; }
     std::size_t high(std::size_t i) const { return high_[i]; }
     std::uint8_t& step(std::size_t i, std::size_t j) { return step_[offset_[i] + (j - low_[i])]; }
+    /// The way back from a cell comes near an edge that is not one of the table: a cheaper one may
+    /// lie beyond.
+    bool is_narrow(std::size_t i, std::size_t j) {
+        while (i > 0 && j > 0) {
+            const bool low = low_[i] > 0 && j < low_[i] + edge_nodes;
+            if (low || (j + edge_nodes > high_[i] && high_[i] < high_.back())) return true;
+            const std::uint8_t by = step(i, j);
+            if (by != node) --i;
+            if (by != row) --j;
+        }
+        return false;
+    }
 
   private:
+    void lay() {
+        offset_.assign(low_.size(), 0);
+        for (std::size_t i = 1; i < low_.size(); ++i)
+            offset_[i] = offset_[i - 1] + high_[i - 1] - low_[i - 1] + 1;
+        step_.assign(offset_.back() + high_.back() - low_.back() + 1, 0);
+    }
+
     Indices low_, high_, offset_;
     std::vector<std::uint8_t> step_;
 };
 
-enum Step : std::uint8_t { none, both, row, node };
+/// Costs of the present row of a table and of the one before; infinite outside their band.
+class Costs {
+  public:
+    explicit Costs(std::size_t n) : before(n, infinite), now(n, infinite) {}
+    std::vector<double> before, now;
+
+    /// Row i is complete.
+    void next(const Band& band, std::size_t i) {
+        std::swap(before, now);
+        if (i == 0) return;
+        const std::size_t end = std::min(now.size(), band.high(i - 1) + 1);
+        std::fill(now.begin() + static_cast<std::ptrdiff_t>(std::min(end, band.low(i - 1))),
+                  now.begin() + static_cast<std::ptrdiff_t>(end), infinite);
+    }
+};
 
 class Pairer {
   public:
@@ -98,6 +90,7 @@ class Pairer {
 
     std::vector<Pair> pair() {
         group();
+        if (!log_.ends) measure_spacing();
         for (std::size_t g = 0; g < rows_.size(); ++g) {
             if (rows_[g].empty() || nodes_[g].empty()) continue;
             log_.ends ? warp_ends(rows_[g], nodes_[g]) : warp_samples(rows_[g], nodes_[g]);
@@ -128,21 +121,27 @@ class Pairer {
     const ControlPosition& row_at(std::size_t i) const { return log_.rows[i].at; }
     const ControlPosition& node_at(std::size_t k) const { return path_.nodes[k].at; }
 
-    /// Path length from the first of `list` to each, as a fraction of the total.
     template <class At>
-    static std::vector<double> ways(const Indices& list, const Space& space, At at) {
-        std::vector<double> way(list.size(), 0.0);
-        for (std::size_t k = 1; k < list.size(); ++k)
-            way[k] = way[k - 1] + std::sqrt(space.square(at(list[k]), at(list[k - 1])));
-        for (double& w : way) w /= std::max(way.back(), 1e-12);
-        return way;
+    Way way(const Indices& list, double ball, At at) const {
+        std::vector<double> points;
+        for (const std::size_t k : list) space_.append(at(k), points);
+        return {std::move(points), space_.axes(), ball};
     }
-    Band band_of(const Indices& rows, const Indices& nodes) const {
-        return {ways(
-                    rows, space_, [this](std::size_t i) -> auto& { return row_at(i); }),
-                ways(
-                    nodes, space_, [this](std::size_t k) -> auto& { return node_at(k); })};
+    Band band_of(const Indices& rows, const Indices& nodes, std::size_t wide) const {
+        if (rows.size() * nodes.size() <= most_cells) return {rows.size(), nodes.size()};
+        const double ball = noise_sigmas / log_.rows[rows.front()].weight;
+        const auto row = [this](std::size_t i) -> auto& {
+            return row_at(i);
+        };
+        const auto node = [this](std::size_t k) -> auto& {
+            return node_at(k);
+        };
+        return {matched_ways(way(rows, ball, row), way(nodes, 0.0, node),
+                             {opens(rows), ends_open(rows)}, wide),
+                nodes.size()};
     }
+    /// The log begins within the program.
+    bool opens(const Indices& rows) const { return log_.begins_within && rows.front() == 0; }
     /// The last row of the log may be anywhere, because the following ones are unknown.
     bool ends_open(const Indices& rows) const { return rows.back() + 1 == log_.rows.size(); }
 
@@ -156,20 +155,24 @@ class Pairer {
         add(row, node, 1.0, space_.apart(row_at(row), node_at(node)), false);
     }
 
-    void warp_ends(const Indices& rows, const Indices& nodes) {
-        Band band = band_of(rows, nodes);
-        std::vector<double> before(nodes.size() + 1, infinite), now;
-        before[0] = 0.0;
-        for (std::size_t i = 1; i <= rows.size(); ++i) {
-            now.assign(nodes.size() + 1, infinite);
-            for (std::size_t j = std::max<std::size_t>(1, band.low(i)); j <= band.high(i); ++j) {
-                const double least = std::min({before[j - 1], before[j], now[j - 1]});
-                now[j] = least + space_.square(row_at(rows[i - 1]), node_at(nodes[j - 1]));
-                band.step(i, j) = before[j - 1] == least ? both : before[j] == least ? row : node;
-            }
-            std::swap(before, now);
+    /// The band in which the cheapest way keeps off the edges, and the last row's costs.
+    template <class Fill>
+    std::pair<Band, std::vector<double>> filled(const Indices& rows, const Indices& nodes,
+                                                Fill fill, std::size_t first) const {
+        for (std::size_t wide = 1;; wide *= wider) {
+            Band band = band_of(rows, nodes, wide);
+            std::vector<double> last = fill(band);
+            const bool narrow =
+                wide < widest &&
+                band.is_narrow(rows.size(), last_cell(last, first, ends_open(rows)));
+            if (!narrow) return {std::move(band), std::move(last)};
         }
-        std::size_t i = rows.size(), j = last_cell(before, ends_open(rows));
+    }
+
+    void warp_ends(const Indices& rows, const Indices& nodes) {
+        auto [band, last] = filled(
+            rows, nodes, [&](Band& b) { return fill_ends(rows, nodes, b); }, 1);
+        std::size_t i = rows.size(), j = last_cell(last, 1, ends_open(rows));
         while (i > 0 && j > 0) {
             add_end(rows[i - 1], nodes[j - 1]);
             const std::uint8_t step = band.step(i, j);
@@ -177,20 +180,42 @@ class Pairer {
             if (step != row) --j;
         }
     }
+    std::vector<double> fill_ends(const Indices& rows, const Indices& nodes, Band& band) const {
+        Costs costs(nodes.size() + 1);
+        auto& [before, now] = costs;
+        before[0] = 0.0;
+        if (opens(rows)) std::fill_n(before.begin(), band.high(0) + 1, 0.0);
+        for (std::size_t i = 1; i <= rows.size(); ++i) {
+            end_if_asked(i);
+            for (std::size_t j = std::max<std::size_t>(1, band.low(i)); j <= band.high(i); ++j) {
+                const double least = std::min({before[j - 1], before[j], now[j - 1]});
+                now[j] = least + space_.square(row_at(rows[i - 1]), node_at(nodes[j - 1]));
+                band.step(i, j) = before[j - 1] == least ? both : before[j] == least ? row : node;
+            }
+            costs.next(band, i);
+        }
+        return std::move(before);
+    }
 
-    static std::size_t last_cell(const std::vector<double>& costs, bool open) {
+    static std::size_t last_cell(const std::vector<double>& costs, std::size_t first, bool open) {
         if (!open) return costs.size() - 1;
-        const auto least = std::min_element(costs.begin() + 1, costs.end());
+        const auto least =
+            std::min_element(costs.begin() + static_cast<std::ptrdiff_t>(first), costs.end());
         return static_cast<std::size_t>(least - costs.begin());
     }
 
-    /// Distance of the samples around row i.
-    double spacing(std::size_t i) const {
-        double most = log_.spacing * log_.spacing;
-        const std::size_t last = std::min(log_.rows.size() - 1, i + spacing_rows);
-        for (std::size_t k = i > spacing_rows ? i - spacing_rows : 0; k < last; ++k)
-            most = std::max(most, space_.square(row_at(k), row_at(k + 1)));
-        return std::sqrt(most);
+    /// Distance of the samples around each row.
+    void measure_spacing() {
+        std::vector<double> squares(log_.rows.size(), 0.0);
+        for (std::size_t k = 0; k + 1 < squares.size(); ++k)
+            squares[k] = space_.square(row_at(k), row_at(k + 1));
+        for (std::size_t i = 0; i < squares.size(); ++i) {
+            double most = log_.spacing * log_.spacing;
+            const std::size_t last = std::min(squares.size() - 1, i + spacing_rows);
+            for (std::size_t k = i > spacing_rows ? i - spacing_rows : 0; k < last; ++k)
+                most = std::max(most, squares[k]);
+            spacing_.push_back(std::sqrt(most));
+        }
     }
     /// Distance between a node and the chord from row i on, minus the distance of samples.
     ControlPosition missed(std::size_t i, std::size_t k) const {
@@ -200,7 +225,7 @@ class Pairer {
         ControlPosition apart = space_.apart(space_.between(from, to, s), node_at(k));
         const double size = std::sqrt(space_.square(apart, {}));
         if (log_.marked && path_.nodes[k].end) return apart;
-        const double kept = size > 0.0 ? std::max(0.0, 1.0 - spacing(i) / size) : 0.0;
+        const double kept = size > 0.0 ? std::max(0.0, 1.0 - spacing_[i] / size) : 0.0;
         for (double& value : apart.value) value *= kept;
         return apart;
     }
@@ -219,14 +244,32 @@ class Pairer {
                              row_at(i));
     }
 
-    /// Cell (i, j): i rows are placed, the last ones on the segment to node j + 1 or before.
     void warp_samples(const Indices& rows, const Indices& nodes) {
-        Band band = band_of(rows, nodes);
+        auto [band, last] = filled(
+            rows, nodes, [&](Band& b) { return fill_samples(rows, nodes, b); }, 0);
+        const bool open = ends_open(rows);
+        std::size_t i = rows.size(), j = last_cell(last, 0, open);
+        if (!open) add_missed(rows.back(), nodes.back());
+        while (i > 0) {
+            if (band.step(i, j) == node) {
+                --j;
+                add_missed(rows[i - 1], nodes[j]);
+            } else {
+                add_sample(rows[i - 1], nodes[j]);
+                --i;
+            }
+        }
+        while (j > 0 && !opens(rows)) add_missed(placed(rows, 0), nodes[--j]);
+    }
+    /// Cell (i, j): i rows are placed, the last ones on the segment to node j + 1 or before.
+    std::vector<double> fill_samples(const Indices& rows, const Indices& nodes, Band& band) const {
         const std::size_t n = nodes.size();
-        std::vector<double> before(n, infinite), now;
+        Costs costs(n);
+        auto& [before, now] = costs;
         for (std::size_t i = 0; i <= rows.size(); ++i) {
-            now.assign(n, infinite);
+            end_if_asked(i);
             if (i == 0) now[0] = 0.0;
+            if (i == 0 && opens(rows)) std::fill_n(now.begin(), std::min(n, band.high(0) + 1), 0.0);
             for (std::size_t j = band.low(i); j < std::min(n, band.high(i) + 1); ++j) {
                 if (i > 0 && before[j] < infinite) {
                     now[j] = before[j] + segment_square(rows[i - 1], nodes[j]);
@@ -238,28 +281,9 @@ class Pairer {
                 now[j] = passed;
                 band.step(i, j) = node;
             }
-            std::swap(before, now);
+            costs.next(band, i);
         }
-        follow_samples(rows, nodes, band, before);
-    }
-    void follow_samples(const Indices& rows, const Indices& nodes, Band& band,
-                        std::vector<double>& costs) {
-        const bool open = ends_open(rows);
-        std::size_t i = rows.size(), j = costs.size() - 1;
-        if (open)
-            j = static_cast<std::size_t>(std::min_element(costs.begin(), costs.end()) -
-                                         costs.begin());
-        if (!open) add_missed(rows.back(), nodes.back());
-        while (i > 0) {
-            if (band.step(i, j) == node) {
-                --j;
-                add_missed(rows[i - 1], nodes[j]);
-            } else {
-                add_sample(rows[i - 1], nodes[j]);
-                --i;
-            }
-        }
-        while (j > 0) add_missed(placed(rows, 0), nodes[--j]);
+        return std::move(before);
     }
     void add_sample(std::size_t i, std::size_t k) {
         const double s = on_segment(i, k);
@@ -306,6 +330,7 @@ class Pairer {
     Space space_;
     std::vector<Indices> rows_, nodes_;  ///< by key
     Indices row_node_, node_row_;
+    std::vector<double> spacing_;  ///< of the samples around each row
     std::vector<Pair> pairs_;
 };
 

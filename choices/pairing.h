@@ -20,11 +20,13 @@ struct LogView {
         bool end = false;     ///< end of a move: belongs to a node, not to a segment
     };
     std::vector<Row> rows;
-    std::vector<Axis> axes;  ///< axes in the log
-    bool ends = false;       ///< all rows are ends of moves
-    bool marked = false;     ///< every end of a move has a row that is marked as one
-    int keys = 0;            ///< number of blocks named by the log; 0: none
-    double spacing = 0.0;    ///< mm or deg: least distance of samples that is assumed everywhere
+    std::vector<Axis> axes;      ///< axes in the log
+    bool ends = false;           ///< all rows are ends of moves
+    bool begins_within = false;  ///< the log begins within the program: what comes before its first
+                                 ///< row is not judged
+    bool marked = false;         ///< every end of a move has a row that is marked as one
+    int keys = 0;                ///< number of blocks named by the log; 0: none
+    double spacing = 0.0;  ///< mm or deg: least distance of samples that is assumed everywhere
     /// Number of a block of the program; -1: not named by the log.
     std::function<int(const PathBlock&)> key_of;
 };
@@ -45,7 +47,7 @@ struct Pair {
 /// paired with the nearest chord of the samples, minus the distance of samples (no
 /// distance is subtracted for an end of a move if the log marks ends). Within one segment the order
 /// of samples is ignored. A degree counts as a millimetre. Points after the last logged position
-/// are ignored.
+/// are ignored. Throws PathEnded.
 std::vector<Pair> pair_up(const LogView& log, const ControlPath& path);
 
 /// Sum of squares of all pairs of a row, each axis divided by its uncertainty; one value a row.
