@@ -20,8 +20,12 @@ class Comparer {
         : log_(log), program_(program), programs_(programs), options_(options) {}
 
     const LogView& log() const { return log_; }
-    /// The same program with another log, which must outlive the result.
-    Comparer on(const LogView& log) const { return {log, program_, programs_, options_}; }
+    /// The same program with other positions in the log, which must outlive the result.
+    Comparer on(const LogView& log) const {
+        PathOptions options = options_;
+        if (!log.ends) options.start = offsets::axis_positions_of(log.rows.front().at);
+        return {log, program_, programs_, options};
+    }
     ControlPath path(const setup::Setup& setup) const {
         return path_of(setup, program_, programs_, options_);
     }

@@ -380,9 +380,10 @@ ControlGap control_gap(const GapQuestion& question, interpreter::ProgramSource& 
                  row_limit_of(log, base, found.run, blocks, 1e-3 * gap.rms_um)},
                 gap);
     if (quiet && !is_convincing(gap)) take_back(question, gap);
-    if (gap.verdict == GapVerdict::unexplained)
-        if (const char* unit = agreeing_unit(comparer, question.setup, base.loss))
-            gap.notes.push_back(fmt::format("the log agrees if its lengths are {}", unit));
+    if (gap.verdict == GapVerdict::unexplained || gap.verdict == GapVerdict::partly_explained)
+        if (const std::string meaning = agreeing_columns(comparer, question.setup, base.loss);
+            !meaning.empty())
+            gap.notes.push_back(fmt::format("the log agrees if {}", meaning));
     return gap;
 }
 

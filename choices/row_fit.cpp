@@ -1,7 +1,10 @@
 #include "choices/row_fit.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace trunnion::choices {
 
@@ -11,6 +14,7 @@ constexpr std::size_t least_differences = 10;  ///< of rows, for their scatter
 constexpr double median_of_square = 0.7;       ///< of a normal variable in two or three directions
 constexpr double visible = 9.0;                ///< loss of an axis: a row beyond it shows a gap
 constexpr double far_smaller = 1e-4;           ///< of a row's loss: what an effect beside may leave
+constexpr double other_columns = 1e-3;         ///< of the loss: it is that of noise
 constexpr double most_scatter = 0.05;          ///< of the gap: a larger scatter is no noise
 
 }  // namespace
@@ -67,21 +71,31 @@ double row_limit_of(const LogOfProgram& log, const ComparedRun& base, const Comp
     return visible * axes * ratio * ratio;
 }
 
-const char* agreeing_unit(const Comparer& comparer, const setup::Setup& setup, double loss) {
+std::string agreeing_columns(const Comparer& comparer, const setup::Setup& setup, double loss) {
     struct Unit {
         double mm;
         const char* name;
     };
     constexpr Unit units[] = {{25.4, "inches"}, {0.001, "micrometres"}, {1000.0, "metres"}};
-    constexpr double agrees = 1e-3;  // of the loss
-    for (const Unit& unit : units) {
+    const auto agrees = [&](const auto& read) {
         LogView view = comparer.log();
-        for (LogView::Row& row : view.rows)
-            for (const Axis axis : view.axes)
-                if (!is_rotary(axis)) row.at[axis] *= unit.mm;
-        if (comparer.on(view).run(setup).loss < agrees * loss) return unit.name;
-    }
-    return nullptr;
+        for (LogView::Row& row : view.rows) read(row.at);
+        return comparer.on(view).run(setup).loss < other_columns * loss;
+    };
+    const std::vector<Axis>& axes = comparer.log().axes;
+    for (const Unit& unit : units)
+        if (agrees([&](offsets::ControlPosition& at) {
+                for (const Axis axis : axes)
+                    if (!is_rotary(axis)) at[axis] *= unit.mm;
+            }))
+            return fmt::format("its lengths are {}", unit.name);
+    for (std::size_t a = 0; a < axes.size(); ++a)
+        for (std::size_t b = a + 1; b < axes.size(); ++b)
+            if (is_rotary(axes[a]) == is_rotary(axes[b]) &&
+                agrees([&](offsets::ControlPosition& at) { std::swap(at[axes[a]], at[axes[b]]); }))
+                return fmt::format("{} and {} are exchanged", letter_of(axes[a]),
+                                   letter_of(axes[b]));
+    return "";
 }
 
 }  // namespace trunnion::choices

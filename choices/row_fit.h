@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "choices/compared_run.h"
@@ -24,7 +25,8 @@ double reached(const std::vector<double>& before, const std::vector<double>& aft
 double row_limit_of(const LogOfProgram& log, const ComparedRun& base, const ComparedRun& explained,
                     const std::vector<int>& blocks, double gap);
 
-/// Another unit of length in which the log agrees; nullptr: none. `loss`: in mm.
-const char* agreeing_unit(const Comparer& comparer, const setup::Setup& setup, double loss);
+/// "its lengths are inches", "X and Y are exchanged": another meaning of the columns under which
+/// the log agrees; empty: none. `loss`: with the meaning that was read.
+std::string agreeing_columns(const Comparer& comparer, const setup::Setup& setup, double loss);
 
 }  // namespace trunnion::choices

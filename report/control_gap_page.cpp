@@ -71,6 +71,12 @@ std::string gap_sections(const choices::ControlGap& gap) {
     return out;
 }
 
+std::string gap_notes(const choices::ControlGap& gap) {
+    std::string notes;
+    for (const std::string& note : gap.notes) notes += paragraph_html(printable(note));
+    return notes.empty() ? "" : section_html("Notes", notes);
+}
+
 std::string how_to_read(const choices::ControlGap& gap) {
     std::string out = paragraph_html(
         "The program ran on the emulated control once for each choice and each store of its "
@@ -96,7 +102,7 @@ Page control_gap_page(const choices::ControlGap& gap, const std::string& log,
     if (!gap.stopped.empty())
         page.verdict += " This control stops: " + printable(gap.stopped) + ".";
     page.tone = gap_tone(gap.verdict);
-    page.body_html = gap_sections(gap) + how_to_read(gap);
+    page.body_html = gap_sections(gap) + gap_notes(gap) + how_to_read(gap);
     return page;
 }
 
