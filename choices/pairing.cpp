@@ -22,7 +22,8 @@ constexpr std::size_t edge_nodes = 4;          ///< of a band: too near to its e
 constexpr std::size_t wider = 4, widest = 64;  ///< of the margins of a band that was narrow
 constexpr double noise_sigmas = 6.0;           ///< of a row: less adds no way
 
-enum Step : std::uint8_t { none, both, row, node };
+/// `start`: a row at the start of the next node's move.
+enum Step : std::uint8_t { none, both, row, node, start };
 
 /// The evaluated part of a table of m by n cells, and the step into each cell.
 class Band {
@@ -48,7 +49,7 @@ class Band {
             if (low || (j + edge_nodes > high_[i] && high_[i] < high_.back())) return true;
             const std::uint8_t by = step(i, j);
             if (by != node) --i;
-            if (by != row) --j;
+            if (by == both || by == node) --j;
         }
         return false;
     }
@@ -174,11 +175,20 @@ class Pairer {
             rows, nodes, [&](Band& b) { return fill_ends(rows, nodes, b); }, 1);
         std::size_t i = rows.size(), j = last_cell(last, 1, ends_open(rows));
         while (i > 0 && j > 0) {
-            add_end(rows[i - 1], nodes[j - 1]);
             const std::uint8_t step = band.step(i, j);
+            add_end(rows[i - 1], step == start ? nodes[j] - 1 : nodes[j - 1]);
             if (step != node) --i;
-            if (step != row) --j;
+            if (step == both || step == node) --j;
         }
+        for (; i > 0 && rests(rows[i - 1]); --i) add_end(rows[i - 1], nodes[0] - 1);
+    }
+    /// A row that does not move tells no end of a move: it may stand where the next one begins.
+    bool rests(std::size_t i) const {
+        const double weight = log_.rows[i].weight;
+        return i > 0 && space_.square(row_at(i), row_at(i - 1)) * weight * weight <= 1.0;
+    }
+    double start_square(std::size_t i, const Indices& nodes, std::size_t j) const {
+        return space_.square(row_at(i), node_at(nodes[j] - 1));
     }
     std::vector<double> fill_ends(const Indices& rows, const Indices& nodes, Band& band) const {
         Costs costs(nodes.size() + 1);
@@ -187,10 +197,19 @@ class Pairer {
         if (opens(rows)) std::fill_n(before.begin(), band.high(0) + 1, 0.0);
         for (std::size_t i = 1; i <= rows.size(); ++i) {
             end_if_asked(i);
+            const std::size_t r = rows[i - 1];
+            const bool resting = rests(r);
+            if (resting && band.low(i) == 0) now[0] = before[0] + start_square(r, nodes, 0);
             for (std::size_t j = std::max<std::size_t>(1, band.low(i)); j <= band.high(i); ++j) {
+                const double own = space_.square(row_at(r), node_at(nodes[j - 1]));
                 const double least = std::min({before[j - 1], before[j], now[j - 1]});
-                now[j] = least + space_.square(row_at(rows[i - 1]), node_at(nodes[j - 1]));
+                now[j] = least + own;
                 band.step(i, j) = before[j - 1] == least ? both : before[j] == least ? row : node;
+                if (!resting || j == nodes.size()) continue;
+                const double stays = before[j] + start_square(r, nodes, j);
+                if (stays >= now[j]) continue;
+                now[j] = stays;
+                band.step(i, j) = start;
             }
             costs.next(band, i);
         }
@@ -237,7 +256,9 @@ class Pairer {
         return space_.square(missed(placed(rows, i), k), {});
     }
     double on_segment(std::size_t i, std::size_t k) const {
-        return log_.rows[i].end ? 1.0 : space_.nearest(node_at(k - 1), node_at(k), row_at(i));
+        return log_.rows[i].end && !rests(i)
+                   ? 1.0
+                   : space_.nearest(node_at(k - 1), node_at(k), row_at(i));
     }
     double segment_square(std::size_t i, std::size_t k) const {
         return space_.square(space_.between(node_at(k - 1), node_at(k), on_segment(i, k)),

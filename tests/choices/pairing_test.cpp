@@ -109,6 +109,32 @@ TEST_CASE("an end of a move among samples belongs to an end of the path") {
     CHECK(loss(log, path) == Approx(8.0));  // 2 mm from row to node, and from node to the log
 }
 
+TEST_CASE("a row that does not move may stand where the move of its block begins") {
+    ControlPath path;
+    path.blocks = {{"", 0}, {"", 1}, {"", 2}, {"", 3}};
+    path.nodes = {
+        {at(0, 0), 0, true}, {at(10, 0), 1, true}, {at(10, 30), 2, true}, {at(0, 30), 3, true}};
+    const auto log_with = [](const std::vector<std::pair<int, offsets::ControlPosition>>& rows) {
+        LogView log = log_of({}, true);
+        log.keys = 3;
+        log.key_of = [](const choices::PathBlock& block) { return block.line - 1; };
+        for (const auto& [block, place] : rows) {
+            log.rows.emplace_back();
+            log.rows.back().at = place;
+            log.rows.back().key = block - 1;
+        }
+        return log;
+    };
+    // Another control's trace has the intermediate point of G28 as a row of its own.
+    CHECK(loss(log_with({{1, at(10, 0)}, {2, at(10, 0)}, {2, at(10, 30)}, {3, at(0, 30)}}), path) ==
+          0.0);
+    // A control that did not move at all there differs, whatever its row says.
+    CHECK(loss(log_with({{1, at(10, 0)}, {2, at(10, 0)}, {3, at(0, 30)}}), path) >= 900.0);
+    // Nor is a row that moved excused.
+    CHECK(loss(log_with({{1, at(10, 0)}, {2, at(10, 12)}, {2, at(10, 30)}, {3, at(0, 30)}}),
+               path) >= 100.0);
+}
+
 TEST_CASE("what a change touches in one block is left out row by row, else block by block") {
     const std::vector<double> before{9, 9, 9, 9, 9, 9}, one{9, 0, 0, 0, 9, 9},
         several{0, 9, 0, 9, 0, 9};

@@ -65,6 +65,16 @@ Y[FUP[-1.25]*3.]
 X[FIX[-7.5]*2.] Y4.
 G0 Z31.
 """
+REFERENCE = HEAD + """G0 X20. Y10.
+G1 Z2. F300
+X30.
+G91 G28 Z0
+G90 G0 X5. Y5.
+Z20.
+G1 X9. F200
+G91 G28 X0 Y0
+G90 X3.
+"""
 USUAL = {3401: '"00000001"', 3410: "0.01", 5006: '"01000000"', 5114: "0.254", 5115: "0.254",
          6004: '"00000001"'}
 
@@ -108,6 +118,7 @@ CASES = [
     Case("offset", CONTOUR, {}, {"G54": {"G54.X": 12.5, "G54.Z": 3.25}},
          offset_mm=(12.53, -8.0, 3.2)),
     Case("tool", LENGTH, {}, {"H1": {"H1": TOOL_MM}}, tool_mm=10.46),
+    Case("reference point", REFERENCE, {}, {}),
     Case("no switch", ROUNDING, {}, None),
 ]
 
