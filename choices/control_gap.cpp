@@ -12,6 +12,7 @@
 #include "choices/block_texts.h"
 #include "choices/folds.h"
 #include "choices/gap_search.h"
+#include "choices/log_meaning.h"
 #include "choices/row_fit.h"
 #include "controller/alarms.h"
 #include "estimation/distributions.h"
@@ -21,8 +22,7 @@ namespace trunnion::choices {
 namespace {
 
 constexpr std::size_t most_where = 5;
-constexpr double quiet_mean = 1.5;   ///< mean loss below which there is no gap
-constexpr double quiet_worst = 6.0;  ///< and the largest distance, in sigma
+constexpr double gap_sigmas = 6.0;  ///< of a row: a gap begins there
 constexpr double explained_from = 0.8, partly_from = 0.5;
 constexpr double least_left = 0.005;  ///< of the gap: minimum for a block listed as remaining
 constexpr int draws = 400;
@@ -45,7 +45,11 @@ std::vector<int> blocks_of(const LogView& log, const ComparedRun& run) {
     for (const Pair& pair : run.pairs)
         out[pair.row] = static_cast<int>(run.path.nodes[pair.node].block);
     if (log.keys == 0) return out;
-    for (std::size_t row = 0; row < out.size(); ++row) out[row] = log.rows[row].key + 1;
+    for (std::size_t row = 0; row < out.size(); ++row) {
+        int key = log.rows[row].key;
+        if (key < 0) key = log.key_of(run.path.blocks[static_cast<std::size_t>(out[row])]);
+        out[row] = key >= 0 ? key + 1 : log.keys + 1 + out[row];
+    }
     return out;
 }
 
@@ -165,13 +169,6 @@ class Teller {
     const std::vector<int>& blocks_;
 };
 
-bool is_quiet(const LogOfProgram& log, const ComparedRun& run, double noise_loss) {
-    double worst = 0.0;
-    for (const double loss : run.losses) worst = std::max(worst, loss);
-    const double axes = static_cast<double>(log.view.axes.size());
-    return run.loss <= quiet_mean * noise_loss && worst <= axes * quiet_worst * quiet_worst;
-}
-
 /// The control with all steps but one.
 setup::Setup without(const setup::Setup& setup, const GapSearch& found, std::size_t left_out) {
     setup::Setup out = setup;
@@ -260,10 +257,17 @@ void add_unknown(ControlGap& gap, std::size_t blocks) {
     gap.causes.push_back(cause);
 }
 
-/// Adds a note if the program continues after the end of the log.
-void tell_rest(const ComparedRun& base, ControlGap& gap) {
-    std::size_t last = 0;
-    for (const Pair& pair : base.pairs) last = std::max<std::size_t>(last, pair.node);
+/// Adds a note if the log begins after the program, or ends before it.
+void tell_rest(const LogView& log, const ComparedRun& base, ControlGap& gap) {
+    std::size_t first = base.path.nodes.size(), last = 0;
+    for (const Pair& pair : base.pairs) {
+        first = std::min<std::size_t>(first, pair.node);
+        last = std::max<std::size_t>(last, pair.node);
+    }
+    if (log.begins_within && first < base.path.nodes.size())
+        gap.notes.push_back(fmt::format(
+            "the log begins within the program: the moves before line {} are not judged",
+            base.path.blocks[base.path.nodes[first].block].line));
     if (last + 1 >= base.path.nodes.size()) return;
     const PathBlock& next = base.path.blocks[base.path.nodes[last + 1].block];
     gap.notes.push_back(fmt::format(
@@ -278,7 +282,7 @@ void tell_base(const LogOfProgram& log, const ComparedRun& base, const Teller& t
     gap.noise_um = teller.noise_um();
     gap.excess_um = std::sqrt(std::max(0.0, gap.rms_um * gap.rms_um - gap.noise_um * gap.noise_um));
     gap.p_value = estimation::chi_squared_tail(base.loss, teller.noise_loss());
-    const double limit = quiet_worst * quiet_worst;
+    const double limit = gap_sigmas * gap_sigmas;
     gap.first = teller.first(base, [&](std::size_t row) { return base.losses[row] > limit; });
     gap.worst = teller.worst(base, [](std::size_t) { return true; });
     gap.where = teller.where(base, base.loss - teller.noise_loss());
@@ -288,7 +292,7 @@ void tell_base(const LogOfProgram& log, const ComparedRun& base, const Teller& t
                         controller::alarm_title(base.path.alarm->number, base.path.alarm->text),
                         base.path.alarm->where.line);
     gap.after_rms_um = gap.rms_um;
-    tell_rest(base, gap);
+    tell_rest(log.view, base, gap);
 }
 
 void tell_causes(const GapQuestion& question, const GapSearch& found, const ComparedRun& base,
@@ -352,8 +356,13 @@ ControlGap control_gap(const GapQuestion& question, interpreter::ProgramSource& 
     first_look.max_blocks = question.max_blocks;
     path_of(question.setup, question.program, programs, first_look);  // finds the called programs
     const std::vector<interpreter::ProgramText> all = called();
-    LogOfProgram log = log_of_program(question.log, all);
-    log.path.max_blocks = question.max_blocks;
+    LogOfProgram log = log_of_program(question.log, all, question.max_blocks);
+    settle_meaning(
+        {question.log, all,
+         [&](const LogOfProgram& read) {
+             return Comparer(read.view, question.program, programs, read.path).run(question.setup);
+         }},
+        log);
     gap.notes = log.notes;
     if (log.view.spacing > least_told_mm)
         gap.notes.push_back(fmt::format(
@@ -372,7 +381,7 @@ ControlGap control_gap(const GapQuestion& question, interpreter::ProgramSource& 
     const BlockTexts texts(question.program, all);
     const Teller teller(log, texts, blocks);
     tell_base(log, base, teller, gap);
-    const bool quiet = is_quiet(log, base, teller.noise_loss());
+    const bool quiet = is_quiet(log, base);
     if (quiet && gap.p_value > chance) return gap;
     const GapSearch found = search_causes(comparer, question.setup, base, blocks, question.watch);
     tell_causes(question, found, base,

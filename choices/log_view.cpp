@@ -220,8 +220,10 @@ void set_sigma(LogOfProgram& log, double sigma) {
 }
 
 LogOfProgram log_of_program(const records::PositionLog& log,
-                            const std::vector<interpreter::ProgramText>& texts) {
+                            const std::vector<interpreter::ProgramText>& texts,
+                            std::uint64_t max_blocks) {
     LogOfProgram out;
+    out.path.max_blocks = max_blocks;
     const auto keys = std::make_shared<BlockKeys>(log, texts);
     out.view.axes = log.axes;
     out.view.ends = log.ends;
@@ -243,6 +245,7 @@ LogOfProgram log_of_program(const records::PositionLog& log,
         before = row.at;
     }
     out.view.keys = keys->count();
+    out.by_number = keys->by_number();
     out.view.key_of = [keys](const PathBlock& block) { return keys->of_block(block); };
     set_noise(log, out);
     out.view.spacing = spacing_of(out.view);

@@ -15,7 +15,8 @@ const char* to_string(LogNoise noise);
 
 struct LogOfProgram {
     LogView view;
-    PathOptions path;  ///< options for a path to be compared with this log
+    bool by_number = false;  ///< the numbers of blocks are N numbers, else lines
+    PathOptions path;        ///< options for a path to be compared with this log
     LogNoise noise = LogNoise::assumed;
     double sigma = 0.0;        ///< mean standard uncertainty of a position, mm or deg
     double least_sigma = 0.0;  ///< that of the printed increment
@@ -28,7 +29,8 @@ struct LogOfProgram {
 /// numbers if most of its values are N numbers of the program, else line numbers. Throws InputError
 /// with the log's line for a block that the program does not have.
 LogOfProgram log_of_program(const records::PositionLog& log,
-                            const std::vector<interpreter::ProgramText>& texts);
+                            const std::vector<interpreter::ProgramText>& texts,
+                            std::uint64_t max_blocks = 0);
 
 /// Another uncertainty for all rows, at least that of the printed increment.
 void set_sigma(LogOfProgram& log, double sigma);

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
+#include "choices/band.h"
+#include "choices/row_keys.h"
 #include "choices/space.h"
 #include "choices/way_match.h"
 
@@ -12,75 +15,13 @@ namespace trunnion::choices {
 namespace {
 
 using offsets::ControlPosition;
-using Indices = std::vector<std::size_t>;
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr std::size_t most_cells = 4'000'000;  ///< of one block's table; beyond it, only a band is
                                                ///< computed
 constexpr std::size_t spacing_rows = 2;        ///< rows on each side for the distance of samples
 constexpr std::size_t edge_nodes = 4;          ///< of a band: too near to its edge
 constexpr std::size_t wider = 4, widest = 64;  ///< of the margins of a band that was narrow
 constexpr double noise_sigmas = 6.0;           ///< of a row: less adds no way
-
-/// `start`: a row at the start of the next node's move.
-enum Step : std::uint8_t { none, both, row, node, start };
-
-/// The evaluated part of a table of m by n cells, and the step into each cell.
-class Band {
-  public:
-    Band(std::size_t m, std::size_t n) : low_(m + 1, 0), high_(m + 1, n) { lay(); }
-    /// `nodes`: those that each row may belong to, of n.
-    Band(const Spans& nodes, std::size_t n) : low_{0}, high_{nodes.high.front() + 1} {
-        for (std::size_t i = 0; i < nodes.low.size(); ++i) {
-            low_.push_back(nodes.low[i]);
-            high_.push_back(nodes.high[i] + 1);
-        }
-        high_.back() = n;
-        lay();
-    }
-    std::size_t low(std::size_t i) const { return low_[i]; }
-    std::size_t high(std::size_t i) const { return high_[i]; }
-    std::uint8_t& step(std::size_t i, std::size_t j) { return step_[offset_[i] + (j - low_[i])]; }
-    /// The way back from a cell comes near an edge that is not one of the table: a cheaper one may
-    /// lie beyond.
-    bool is_narrow(std::size_t i, std::size_t j) {
-        while (i > 0 && j > 0) {
-            const bool low = low_[i] > 0 && j < low_[i] + edge_nodes;
-            if (low || (j + edge_nodes > high_[i] && high_[i] < high_.back())) return true;
-            const std::uint8_t by = step(i, j);
-            if (by != node) --i;
-            if (by == both || by == node) --j;
-        }
-        return false;
-    }
-
-  private:
-    void lay() {
-        offset_.assign(low_.size(), 0);
-        for (std::size_t i = 1; i < low_.size(); ++i)
-            offset_[i] = offset_[i - 1] + high_[i - 1] - low_[i - 1] + 1;
-        step_.assign(offset_.back() + high_.back() - low_.back() + 1, 0);
-    }
-
-    Indices low_, high_, offset_;
-    std::vector<std::uint8_t> step_;
-};
-
-/// Costs of the present row of a table and of the one before; infinite outside their band.
-class Costs {
-  public:
-    explicit Costs(std::size_t n) : before(n, infinite), now(n, infinite) {}
-    std::vector<double> before, now;
-
-    /// Row i is complete.
-    void next(const Band& band, std::size_t i) {
-        std::swap(before, now);
-        if (i == 0) return;
-        const std::size_t end = std::min(now.size(), band.high(i - 1) + 1);
-        std::fill(now.begin() + static_cast<std::ptrdiff_t>(std::min(end, band.low(i - 1))),
-                  now.begin() + static_cast<std::ptrdiff_t>(end), infinite);
-    }
-};
 
 class Pairer {
   public:
@@ -92,10 +33,9 @@ class Pairer {
     std::vector<Pair> pair() {
         group();
         if (!log_.ends) measure_spacing();
-        for (std::size_t g = 0; g < rows_.size(); ++g) {
-            if (rows_[g].empty() || nodes_[g].empty()) continue;
-            log_.ends ? warp_ends(rows_[g], nodes_[g]) : warp_samples(rows_[g], nodes_[g]);
-        }
+        const std::optional<std::size_t> begun = begin();
+        for (std::size_t g = 0; g < rows_.size(); ++g)
+            if (g != begun) warp(g);
         add_lonely_rows();
         add_lonely_nodes();
         return std::move(pairs_);
@@ -105,18 +45,38 @@ class Pairer {
     static constexpr std::size_t missing = std::numeric_limits<std::size_t>::max();
 
     void group() {
-        const std::size_t groups = log_.keys == 0 ? 1 : static_cast<std::size_t>(log_.keys);
-        rows_.resize(groups);
-        nodes_.resize(groups);
-        std::vector<int> key_of_block;
-        for (const PathBlock& block : path_.blocks)
-            key_of_block.push_back(log_.keys == 0 ? 0 : log_.key_of(block));
+        keys_ = keys_of(log_, path_);
+        rows_.resize(static_cast<std::size_t>(keys_.count));
+        nodes_.resize(rows_.size());
         for (std::size_t i = 0; i < log_.rows.size(); ++i)
-            if (const int key = log_.keys == 0 ? 0 : log_.rows[i].key; key >= 0)
+            if (const int key = keys_.of_row[i]; key >= 0)
                 rows_[static_cast<std::size_t>(key)].push_back(i);
         for (std::size_t k = 1; k < path_.nodes.size(); ++k)
-            if (const int key = key_of_block[path_.nodes[k].block]; key >= 0)
+            if (const int key = keys_.of_block[path_.nodes[k].block]; key >= 0)
                 nodes_[static_cast<std::size_t>(key)].push_back(k);
+    }
+    void warp(std::size_t g) {
+        if (rows_[g].empty() || nodes_[g].empty()) return;
+        log_.ends ? warp_ends(rows_[g], nodes_[g]) : warp_samples(rows_[g], nodes_[g]);
+    }
+    /// The first row of a block with motion tells where a log begins that does so within the
+    /// program; no row belongs to a node before. Its group.
+    std::optional<std::size_t> begin() {
+        if (!log_.begins_within) return std::nullopt;
+        for (std::size_t i = 0; i < log_.rows.size(); ++i) {
+            if (keys_.of_row[i] < 0) continue;
+            const auto g = static_cast<std::size_t>(keys_.of_row[i]);
+            if (nodes_[g].empty()) continue;
+            opening_row_ = i;
+            warp(g);
+            begin_node_ = pairs_.empty() ? 0 : pairs_.front().node;
+            for (const Pair& pair : pairs_)
+                begin_node_ = std::min<std::size_t>(begin_node_, pair.node);
+            for (Indices& nodes : nodes_)
+                std::erase_if(nodes, [this](std::size_t k) { return k < begin_node_; });
+            return g;
+        }
+        return std::nullopt;
     }
 
     const ControlPosition& row_at(std::size_t i) const { return log_.rows[i].at; }
@@ -142,7 +102,7 @@ class Pairer {
                 nodes.size()};
     }
     /// The log begins within the program.
-    bool opens(const Indices& rows) const { return log_.begins_within && rows.front() == 0; }
+    bool opens(const Indices& rows) const { return rows.front() == opening_row_; }
     /// The last row of the log may be anywhere, because the following ones are unknown.
     bool ends_open(const Indices& rows) const { return rows.back() + 1 == log_.rows.size(); }
 
@@ -331,13 +291,11 @@ class Pairer {
     void add_lonely_nodes() {
         std::size_t last = 0;
         for (const Pair& pair : pairs_) last = std::max<std::size_t>(last, pair.node);
-        std::vector<bool> has_rows(path_.blocks.size(), log_.keys == 0);
-        for (std::size_t b = 1; b < path_.blocks.size() && log_.keys > 0; ++b) {
-            const int key = log_.key_of(path_.blocks[b]);
-            has_rows[b] = key >= 0 && !rows_[static_cast<std::size_t>(key)].empty();
-        }
+        std::vector<bool> has_rows;
+        for (const int key : keys_.of_block)
+            has_rows.push_back(key >= 0 && !rows_[static_cast<std::size_t>(key)].empty());
         std::size_t row = 0;
-        for (std::size_t k = 1; k < last; ++k) {
+        for (std::size_t k = std::max<std::size_t>(1, begin_node_); k < last; ++k) {
             if (node_row_[k] != missing) {
                 row = node_row_[k];
             } else if (!has_rows[path_.nodes[k].block]) {
@@ -349,7 +307,10 @@ class Pairer {
     const LogView& log_;
     const ControlPath& path_;
     Space space_;
+    RowKeys keys_;
     std::vector<Indices> rows_, nodes_;  ///< by key
+    std::size_t opening_row_ = missing;  ///< the first row of a log that begins within the program
+    std::size_t begin_node_ = 0;         ///< nodes before are not judged
     Indices row_node_, node_row_;
     std::vector<double> spacing_;  ///< of the samples around each row
     std::vector<Pair> pairs_;

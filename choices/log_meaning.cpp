@@ -1,0 +1,153 @@
+#include "choices/log_meaning.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <optional>
+#include <set>
+
+#include "choices/late_numbers.h"
+
+namespace trunnion::choices {
+
+namespace {
+
+constexpr double quiet_mean = 1.5;        ///< mean loss below which there is no gap
+constexpr double quiet_worst = 6.0;       ///< and the largest distance, in sigma
+constexpr double other_meaning = 0.1;     ///< of the loss: most that another reading may leave
+constexpr double other_lateness = 0.05;   ///< the same where no corner shows it
+constexpr std::size_t most_unlogged = 2;  ///< blocks that a control may leave out at the start
+constexpr int earliest_shift = -3, latest_shift = 5;
+
+/// One reading of a log.
+struct Meaning {
+    LogOfProgram log;
+    ComparedRun run;
+};
+
+/// Blocks with motion before the first row.
+std::size_t blocks_before(const ComparedRun& run) {
+    std::size_t first = run.path.nodes.size();
+    for (const Pair& pair : run.pairs) first = std::min<std::size_t>(first, pair.node);
+    std::set<std::uint32_t> blocks;
+    for (std::size_t k = 1; k < first; ++k) blocks.insert(run.path.nodes[k].block);
+    if (first < run.path.nodes.size()) blocks.erase(run.path.nodes[first].block);
+    return blocks.size();
+}
+
+class Meanings {
+  public:
+    Meanings(const LogSource& source, LogOfProgram& log)
+        : source_(source), now_{log, source.run(log)} {}
+
+    LogOfProgram settled() {
+        settle_part();
+        settle_lateness();
+        return std::move(now_.log);
+    }
+
+  private:
+    Meaning meaning(LogOfProgram log) const {
+        ComparedRun run = source_.run(log);
+        return {std::move(log), std::move(run)};
+    }
+    bool is_settled() const { return is_quiet(now_.log, now_.run); }
+
+    /// Lines from 0, a log of a part of the program, or both.
+    void settle_part() {
+        if (is_settled()) return;
+        std::vector<Meaning> others;
+        others.push_back(part(now_.log));
+        if (auto zero = from_zero()) {
+            others.push_back(part(*zero));
+            others.push_back(meaning(std::move(*zero)));
+        }
+        // Later ones say less that is unusual, or as much.
+        Meaning* best = nullptr;
+        for (Meaning& other : others) {
+            const double limit = best ? best->run.loss : other_meaning * now_.run.loss;
+            const bool simpler = best && other.run.loss <= limit + noise();
+            if (is_possible(other) && (other.run.loss < limit || simpler)) best = &other;
+        }
+        if (best != nullptr) now_ = std::move(*best);
+    }
+    double noise() const {
+        return static_cast<double>(now_.log.view.axes.size() * now_.log.view.rows.size());
+    }
+    Meaning part(LogOfProgram log) const {
+        log.view.begins_within = true;
+        return meaning(std::move(log));
+    }
+    /// A trace has only ends of moves: that it lacks the first ones may be the other control's way.
+    static bool is_possible(const Meaning& other) {
+        return !other.log.view.begins_within ||
+               blocks_before(other.run) > (other.log.view.ends ? most_unlogged : 0);
+    }
+    std::optional<LogOfProgram> from_zero() const {
+        if (now_.log.view.keys == 0 || now_.log.by_number) return std::nullopt;
+        records::PositionLog log = source_.log;
+        for (records::LoggedPosition& row : log.rows)
+            if (row.block > 0) ++row.block;
+        try {
+            LogOfProgram out = log_of_program(log, source_.texts);
+            out.notes.push_back(log.path + ": the lines agree if the first one is 0");
+            return out;
+        } catch (const InputError&) {  // a line beyond the last
+            return std::nullopt;
+        }
+    }
+
+    void settle_lateness() {
+        if (is_settled()) return;
+        const LogView view = now_.log.view;
+        if (const auto late = lateness_of(view)) {
+            if (Meaning moved = late_by(view, *late); moved.run.loss < now_.run.loss)
+                now_ = std::move(moved);
+            return;
+        }
+        if (view.ends || view.keys < 2) return;
+        std::optional<Meaning> best;
+        double limit = other_lateness * now_.run.loss;
+        for (int shift = earliest_shift; shift <= latest_shift; ++shift) {
+            if (shift == 0) continue;
+            Meaning moved = late_by(view, {shift, shift});
+            if (moved.run.loss >= limit) continue;
+            limit = moved.run.loss;
+            best = std::move(moved);
+        }
+        if (best) now_ = std::move(*best);
+    }
+    Meaning late_by(const LogView& view, const Lateness& late) const {
+        LogOfProgram log = now_.log;
+        log.view = without_lateness(view, late);
+        const bool behind = late.most > 0;
+        const int least = std::min(std::abs(late.least), std::abs(late.most)),
+                  most = std::max(std::abs(late.least), std::abs(late.most));
+        log.notes.push_back(fmt::format(
+            "the numbers of blocks are {} rows {} the positions: rows at the changes are assigned "
+            "by their positions",
+            least == most ? fmt::format("{}", most) : fmt::format("{} to {}", least, most),
+            behind ? "behind" : "ahead of"));
+        return meaning(std::move(log));
+    }
+
+    const LogSource& source_;
+    Meaning now_;
+};
+
+}  // namespace
+
+bool is_quiet(const LogOfProgram& log, const ComparedRun& run) {
+    double worst = 0.0;
+    for (const double loss : run.losses) worst = std::max(worst, loss);
+    const double axes = static_cast<double>(log.view.axes.size());
+    return run.loss <= quiet_mean * axes * static_cast<double>(run.losses.size()) &&
+           worst <= axes * quiet_worst * quiet_worst;
+}
+
+void settle_meaning(const LogSource& source, LogOfProgram& log) {
+    log = Meanings(source, log).settled();
+}
+
+}  // namespace trunnion::choices

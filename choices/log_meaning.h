@@ -1,0 +1,27 @@
+// What the block numbers of a log mean where they do not fit as they are read: late, from 0, or of
+// a part of the program.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "choices/compared_run.h"
+#include "choices/log_view.h"
+
+namespace trunnion::choices {
+
+struct LogSource {
+    const records::PositionLog& log;
+    const std::vector<interpreter::ProgramText>& texts;  ///< the main program first
+    /// The control as it is set, compared with a log.
+    std::function<ComparedRun(const LogOfProgram&)> run;
+};
+
+/// Nothing beyond noise: mean and largest distance.
+bool is_quiet(const LogOfProgram& log, const ComparedRun& run);
+
+/// Replaces the log by another reading of it only where that removes (almost) all of a gap, or, for
+/// late numbers, where the corners of the log itself show it; a note tells.
+void settle_meaning(const LogSource& source, LogOfProgram& log);
+
+}  // namespace trunnion::choices
