@@ -13,6 +13,7 @@ namespace {
 constexpr int earliest = -3, latest = 5;  ///< rows that are looked at beside a change
 constexpr int window = 3;                 ///< rows among which most changes lie
 constexpr int places = latest - earliest + 1;
+constexpr std::size_t least_rows = 6;  ///< of a block on each side of a change
 constexpr double corner_sigmas = 8.0;  ///< of a row from the chord of its neighbours
 constexpr double no_corner = 0.25;     ///< of the largest corner: the change itself has none
 constexpr double same_corner = 0.999;
@@ -58,12 +59,19 @@ std::optional<int> vote(const std::vector<double>& corners, int change) {
     return std::abs(best) > 1 && turn(0) > no_corner * most ? 0 : best;
 }
 
+/// Changes between two blocks with so many rows that their other corners are out of reach.
 Votes votes_of(const LogView& log) {
     const std::vector<double> corners = corners_of(log);
+    const auto same = [&log](std::size_t from, std::size_t to) {
+        const int key = log.rows[from].key;
+        return key >= 0 && std::all_of(log.rows.begin() + static_cast<std::ptrdiff_t>(from),
+                                       log.rows.begin() + static_cast<std::ptrdiff_t>(to),
+                                       [key](const LogView::Row& row) { return row.key == key; });
+    };
     Votes out{};
-    for (std::size_t i = 1; i < log.rows.size(); ++i) {
-        const int before = log.rows[i - 1].key, key = log.rows[i].key;
-        if (before < 0 || key < 0 || before == key) continue;
+    for (std::size_t i = least_rows; i + least_rows <= log.rows.size(); ++i) {
+        if (log.rows[i - 1].key == log.rows[i].key) continue;
+        if (!same(i - least_rows, i) || !same(i, i + least_rows)) continue;
         if (const auto late = vote(corners, static_cast<int>(i)))
             ++out[static_cast<std::size_t>(*late - earliest)];
     }

@@ -18,6 +18,7 @@ constexpr double quiet_worst = 6.0;       ///< and the largest distance, in sigm
 constexpr double other_meaning = 0.1;     ///< of the loss: most that another reading may leave
 constexpr double other_lateness = 0.05;   ///< the same where no corner shows it
 constexpr std::size_t most_unlogged = 2;  ///< blocks that a control may leave out at the start
+constexpr std::size_t rows_a_change = 8;  ///< of a log whose numbers may be late
 constexpr int earliest_shift = -3, latest_shift = 5;
 
 /// One reading of a log.
@@ -34,6 +35,14 @@ std::size_t blocks_before(const ComparedRun& run) {
     for (std::size_t k = 1; k < first; ++k) blocks.insert(run.path.nodes[k].block);
     if (first < run.path.nodes.size()) blocks.erase(run.path.nodes[first].block);
     return blocks.size();
+}
+
+/// Most rows stand far from a change of the number.
+bool is_dense(const LogView& view) {
+    std::size_t changes = 0;
+    for (std::size_t i = 1; i < view.rows.size(); ++i)
+        changes += view.rows[i].key != view.rows[i - 1].key ? 1 : 0;
+    return view.keys > 1 && view.rows.size() > rows_a_change * changes;
 }
 
 class Meanings {
@@ -106,7 +115,7 @@ class Meanings {
                 now_ = std::move(moved);
             return;
         }
-        if (view.ends || view.keys < 2) return;
+        if (view.ends || !is_dense(view)) return;
         std::optional<Meaning> best;
         double limit = other_lateness * now_.run.loss;
         for (int shift = earliest_shift; shift <= latest_shift; ++shift) {

@@ -80,7 +80,11 @@ std::string agreeing_columns(const Comparer& comparer, const setup::Setup& setup
     const auto agrees = [&](const auto& read) {
         LogView view = comparer.log();
         for (LogView::Row& row : view.rows) read(row.at);
-        return comparer.on(view).run(setup).loss < other_columns * loss;
+        const ComparedRun run = comparer.on(view).run(setup);
+        // A log that shrinks to a point fits the start of any program.
+        std::size_t last = 0;
+        for (const Pair& pair : run.pairs) last = std::max<std::size_t>(last, pair.node);
+        return run.loss < other_columns * loss && 2 * last >= run.path.nodes.size();
     };
     const std::vector<Axis>& axes = comparer.log().axes;
     for (const Unit& unit : units)
