@@ -4,14 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <numeric>
 #include <optional>
+#include <set>
 
-#include "base/random.h"
 #include "choices/block_texts.h"
 #include "choices/folds.h"
 #include "choices/gap_search.h"
+#include "choices/gap_teller.h"
 #include "choices/log_meaning.h"
 #include "choices/row_fit.h"
 #include "controller/alarms.h"
@@ -21,11 +20,9 @@ namespace trunnion::choices {
 
 namespace {
 
-constexpr std::size_t most_where = 5;
 constexpr double gap_sigmas = 6.0;  ///< of a row: a gap begins there
 constexpr double explained_from = 0.8, partly_from = 0.5;
 constexpr double least_left = 0.005;  ///< of the gap: minimum for a block listed as remaining
-constexpr int draws = 400;
 constexpr double only_one_block = 2.0 / 3.0;  ///< most that a single block can prove
 constexpr double claimed = 0.5;               ///< least probability of a claim
 constexpr double least_told_mm = 0.01;        ///< distance of samples that is worth a note
@@ -34,140 +31,6 @@ constexpr double chance =
 constexpr double quite_sure = 0.8;    ///< probability of a cause of such an excess
 constexpr double all_rows = 0.95;     ///< part of the rows that an explanation reaches
 constexpr double surely_more = 1e-9;  ///< p of a mean that no noise has
-
-double um(double mm) {
-    return 1000.0 * mm;
-}
-
-/// Block of each row: the one given by the log, else the one of the control at that point.
-std::vector<int> blocks_of(const LogView& log, const ComparedRun& run) {
-    std::vector<int> out(log.rows.size(), 0);
-    for (const Pair& pair : run.pairs)
-        out[pair.row] = static_cast<int>(run.path.nodes[pair.node].block);
-    if (log.keys == 0) return out;
-    for (std::size_t row = 0; row < out.size(); ++row) {
-        int key = log.rows[row].key;
-        if (key < 0) key = log.key_of(run.path.blocks[static_cast<std::size_t>(out[row])]);
-        out[row] = key >= 0 ? key + 1 : log.keys + 1 + out[row];
-    }
-    return out;
-}
-
-/// Creates the results from runs of one log.
-class Teller {
-  public:
-    Teller(const LogOfProgram& log, const BlockTexts& texts, const std::vector<int>& blocks)
-        : log_(log), texts_(texts), blocks_(blocks) {}
-
-    double mean_um(const std::vector<double>& losses) const {
-        double sum = 0.0;
-        for (std::size_t row = 0; row < losses.size(); ++row) sum += square_um(losses[row], row);
-        return std::sqrt(sum / static_cast<double>(losses.size()));
-    }
-    double noise_um() const {
-        return um(log_.sigma) * std::sqrt(static_cast<double>(log_.view.axes.size()));
-    }
-    double noise_loss() const {
-        return static_cast<double>(log_.view.axes.size() * log_.view.rows.size());
-    }
-    /// The pair with the largest distance among the rows accepted by `counts`.
-    template <class Counts>
-    GapPlace worst(const ComparedRun& run, Counts counts) const {
-        const Pair* most = nullptr;
-        for (const Pair& pair : run.pairs)
-            if (counts(pair.row) && (most == nullptr || size(pair) > size(*most))) most = &pair;
-        return most == nullptr ? GapPlace{} : place(run, *most);
-    }
-    template <class Counts>
-    GapPlace first(const ComparedRun& run, Counts counts) const {
-        const Pair* first = nullptr;
-        for (const Pair& pair : run.pairs) {
-            if (!counts(pair.row)) continue;
-            const bool earlier = first == nullptr || pair.row < first->row ||
-                                 (pair.row == first->row && size(pair) > size(*first));
-            if (earlier) first = &pair;
-        }
-        return first == nullptr ? GapPlace{} : place(run, *first);
-    }
-    /// `excess`: loss beyond noise, to which the shares refer.
-    std::vector<GapBlock> where(const ComparedRun& run, double excess) const {
-        std::map<int, std::pair<double, double>> loss;  // and the number of terms
-        for (std::size_t row = 0; row < run.losses.size(); ++row) {
-            loss[blocks_[row]].first += run.losses[row];
-            loss[blocks_[row]].second += static_cast<double>(log_.view.axes.size());
-        }
-        std::vector<std::pair<double, int>> order;
-        for (const auto& [block, l] : loss) order.emplace_back(-l.first, block);
-        std::sort(order.begin(), order.end());
-        std::vector<GapBlock> out;
-        for (const auto& [negative, block_number] : order) {
-            const int block = block_number;
-            const double terms = loss[block].second;
-            const double p = estimation::chi_squared_tail(-negative, terms);
-            if (out.size() == most_where || p > 1e-4) break;
-            out.push_back({worst(run, [&](std::size_t row) { return blocks_[row] == block; }),
-                           std::max(0.0, -negative - terms) / std::max(1.0, excess), p});
-        }
-        return out;
-    }
-    /// Removed part of the excess over the noise, as amplitude, with its spread over blocks.
-    GapShrink shrink(const std::vector<double>& before, const std::vector<double>& after) const {
-        GapShrink out{mean_um(before), mean_um(after), 0.0, 0.0, 0.0};
-        std::map<int, std::array<double, 3>> sums;
-        for (std::size_t row = 0; row < before.size(); ++row) {
-            auto& s = sums[blocks_[row]];
-            s[0] += before[row];
-            s[1] += after[row];
-            s[2] += static_cast<double>(log_.view.axes.size());
-        }
-        std::vector<std::array<double, 3>> list;
-        for (const auto& [block, s] : sums) list.push_back(s);
-        out.shrink = shrink_of(list, [](std::size_t k) { return k; });
-        SeededNoise random(1);
-        std::vector<double> drawn;
-        for (int d = 0; d < draws; ++d)
-            drawn.push_back(shrink_of(list, [&](std::size_t) {
-                return std::min(
-                    list.size() - 1,
-                    static_cast<std::size_t>(random.uniform() * static_cast<double>(list.size())));
-            }));
-        std::sort(drawn.begin(), drawn.end());
-        out.low = drawn[draws / 40];
-        out.high = drawn[draws - 1 - draws / 40];
-        return out;
-    }
-    GapPlace place(const ComparedRun& run, const Pair& pair) const {
-        const PathBlock& block = run.path.blocks[run.path.nodes[pair.node].block];
-        return {block.program, block.line, block.line > 0 ? texts_.block(block) : std::string(),
-                size(pair), log_.view.rows[pair.row].line};
-    }
-
-  private:
-    template <class Pick>
-    static double shrink_of(const std::vector<std::array<double, 3>>& list, Pick pick) {
-        double before = 0.0, after = 0.0;
-        for (std::size_t k = 0; k < list.size(); ++k) {
-            const auto& s = list[pick(k)];
-            before += s[0] - s[2];
-            after += s[1] - s[2];
-        }
-        if (before <= 0.0) return 0.0;
-        return std::clamp(1.0 - std::sqrt(std::max(0.0, after) / before), 0.0, 1.0);
-    }
-    double square_um(double loss, std::size_t row) const {
-        const double weight = log_.view.rows[row].weight;
-        return 1e6 * loss / (weight * weight);
-    }
-    double size(const Pair& pair) const {
-        double sum = 0.0;
-        for (const Axis axis : log_.view.axes) sum += pair.apart[axis] * pair.apart[axis];
-        return std::sqrt(sum);
-    }
-
-    const LogOfProgram& log_;
-    const BlockTexts& texts_;
-    const std::vector<int>& blocks_;
-};
 
 /// The control with all steps but one.
 setup::Setup without(const setup::Setup& setup, const GapSearch& found, std::size_t left_out) {
@@ -320,6 +183,11 @@ void tell_causes(const GapQuestion& question, const GapSearch& found, const Comp
     gap.unseen = found.unseen;
 }
 
+/// Something of the gap stays.
+bool is_left(const ControlGap& gap) {
+    return gap.verdict == GapVerdict::unexplained || gap.verdict == GapVerdict::partly_explained;
+}
+
 /// What noise alone might be must be explained wholly and surely.
 bool is_convincing(const ControlGap& gap) {
     const bool whole = gap.verdict == GapVerdict::explained || gap.verdict == GapVerdict::ambiguous;
@@ -347,53 +215,82 @@ const char* to_string(GapVerdict verdict) {
     return names[static_cast<std::size_t>(verdict)];
 }
 
-ControlGap control_gap(const GapQuestion& question, interpreter::ProgramSource& programs,
-                       const std::function<std::vector<interpreter::ProgramText>()>& called) {
+namespace {
+
+struct Asked {
+    const GapQuestion& question;
+    interpreter::ProgramSource& programs;
+    const std::vector<interpreter::ProgramText>& texts;
+
+    Comparer comparer(const LogOfProgram& log) const {
+        return {log.view, question.program, programs, log.path};
+    }
+    LogSource source(const setup::Setup& setup) const {
+        return {question.log, texts,
+                [this, &setup](const LogOfProgram& log) { return comparer(log).run(setup); }};
+    }
+};
+
+struct Answer {
     ControlGap gap;
+    setup::Setup reached;  ///< with every cause of the search, claimed or not
+};
+
+Answer judged(const Asked& asked, LogOfProgram log) {
+    const GapQuestion& question = asked.question;
+    Answer out{{}, question.setup};
+    ControlGap& gap = out.gap;
     gap.setup = question.setup;
-    PathOptions first_look;
-    first_look.ends_only = true;
-    first_look.max_blocks = question.max_blocks;
-    path_of(question.setup, question.program, programs, first_look);  // finds the called programs
-    const std::vector<interpreter::ProgramText> all = called();
-    LogOfProgram log = log_of_program(question.log, all, question.max_blocks);
-    settle_meaning(
-        {question.log, all,
-         [&](const LogOfProgram& read) {
-             return Comparer(read.view, question.program, programs, read.path).run(question.setup);
-         }},
-        log);
     gap.notes = log.notes;
     if (log.view.spacing > least_told_mm)
         gap.notes.push_back(fmt::format(
             "a move of less than {:.2g} mm, out and back between two samples, would not be seen",
             log.view.spacing));
-    const auto compare = [&] { return Comparer(log.view, question.program, programs, log.path); };
-    const ComparedRun first = compare().run(question.setup);
+    const ComparedRun first = asked.comparer(log).run(question.setup);
     const std::vector<int> blocks = blocks_of(log.view, first);
     // A motion that the log samples coarsely looks like noise, and would hide a gap.
     if (const auto scatter = scatter_about(log.view, first, blocks);
         log.noise == LogNoise::repeats && scatter && *scatter < log.sigma)
         set_sigma(log, *scatter);
-    const Comparer comparer = compare();
+    const Comparer comparer = asked.comparer(log);
     const ComparedRun base = comparer.run(question.setup);
     gap.blocks = std::set<int>(blocks.begin(), blocks.end()).size();
-    const BlockTexts texts(question.program, all);
+    const BlockTexts texts(question.program, asked.texts);
     const Teller teller(log, texts, blocks);
     tell_base(log, base, teller, gap);
     const bool quiet = is_quiet(log, base);
-    if (quiet && gap.p_value > chance) return gap;
+    if (quiet && gap.p_value > chance) return out;
     const GapSearch found = search_causes(comparer, question.setup, base, blocks, question.watch);
     tell_causes(question, found, base,
                 {comparer, teller, blocks, base.loss,
                  row_limit_of(log, base, found.run, blocks, 1e-3 * gap.rms_um)},
                 gap);
     if (quiet && !is_convincing(gap)) take_back(question, gap);
-    if (gap.verdict == GapVerdict::unexplained || gap.verdict == GapVerdict::partly_explained)
+    out.reached = found.setup;
+    if (is_left(gap))
         if (const std::string meaning = agreeing_columns(comparer, question.setup, base.loss);
             !meaning.empty())
             gap.notes.push_back(fmt::format("the log agrees if {}", meaning));
-    return gap;
+    return out;
+}
+
+}  // namespace
+
+ControlGap control_gap(const GapQuestion& question, interpreter::ProgramSource& programs,
+                       const std::function<std::vector<interpreter::ProgramText>()>& called) {
+    PathOptions first_look;
+    first_look.ends_only = true;
+    first_look.max_blocks = question.max_blocks;
+    path_of(question.setup, question.program, programs, first_look);  // finds the called programs
+    const std::vector<interpreter::ProgramText> all = called();
+    const Asked asked{question, programs, all};
+    LogOfProgram log = log_of_program(question.log, all, question.max_blocks);
+    settle_meaning(asked.source(question.setup), log);
+    Answer answer = judged(asked, log);
+    // Late numbers may show only beside the causes.
+    if (is_left(answer.gap) && settle_lateness(asked.source(answer.reached), log))
+        answer = judged(asked, std::move(log));
+    return std::move(answer.gap);
 }
 
 }  // namespace trunnion::choices

@@ -50,11 +50,34 @@ class Meanings {
     Meanings(const LogSource& source, LogOfProgram& log)
         : source_(source), now_{log, source.run(log)} {}
 
-    LogOfProgram settled() {
+    void settle() {
         settle_part();
         settle_lateness();
-        return std::move(now_.log);
     }
+    /// False: the log stays.
+    bool settle_lateness() {
+        if (is_settled() || now_.log.late) return false;
+        const LogView view = now_.log.view;
+        if (const auto late = lateness_of(view)) {
+            Meaning moved = late_by(view, *late);
+            if (moved.run.loss >= now_.run.loss) return false;
+            now_ = std::move(moved);
+            return true;
+        }
+        if (view.ends || !is_dense(view)) return false;
+        std::optional<Meaning> best;
+        double limit = other_lateness * now_.run.loss;
+        for (int shift = earliest_shift; shift <= latest_shift; ++shift) {
+            if (shift == 0) continue;
+            Meaning moved = late_by(view, {shift, shift});
+            if (moved.run.loss >= limit) continue;
+            limit = moved.run.loss;
+            best = std::move(moved);
+        }
+        if (best) now_ = std::move(*best);
+        return best.has_value();
+    }
+    LogOfProgram log() { return std::move(now_.log); }
 
   private:
     Meaning meaning(LogOfProgram log) const {
@@ -107,29 +130,10 @@ class Meanings {
         }
     }
 
-    void settle_lateness() {
-        if (is_settled()) return;
-        const LogView view = now_.log.view;
-        if (const auto late = lateness_of(view)) {
-            if (Meaning moved = late_by(view, *late); moved.run.loss < now_.run.loss)
-                now_ = std::move(moved);
-            return;
-        }
-        if (view.ends || !is_dense(view)) return;
-        std::optional<Meaning> best;
-        double limit = other_lateness * now_.run.loss;
-        for (int shift = earliest_shift; shift <= latest_shift; ++shift) {
-            if (shift == 0) continue;
-            Meaning moved = late_by(view, {shift, shift});
-            if (moved.run.loss >= limit) continue;
-            limit = moved.run.loss;
-            best = std::move(moved);
-        }
-        if (best) now_ = std::move(*best);
-    }
     Meaning late_by(const LogView& view, const Lateness& late) const {
         LogOfProgram log = now_.log;
         log.view = without_lateness(view, late);
+        log.late = true;
         const bool behind = late.most > 0;
         const int least = std::min(std::abs(late.least), std::abs(late.most)),
                   most = std::max(std::abs(late.least), std::abs(late.most));
@@ -156,7 +160,16 @@ bool is_quiet(const LogOfProgram& log, const ComparedRun& run) {
 }
 
 void settle_meaning(const LogSource& source, LogOfProgram& log) {
-    log = Meanings(source, log).settled();
+    Meanings meanings(source, log);
+    meanings.settle();
+    log = meanings.log();
+}
+
+bool settle_lateness(const LogSource& source, LogOfProgram& log) {
+    Meanings meanings(source, log);
+    if (!meanings.settle_lateness()) return false;
+    log = meanings.log();
+    return true;
 }
 
 }  // namespace trunnion::choices

@@ -13,7 +13,7 @@ namespace trunnion::choices {
 struct LogSource {
     const records::PositionLog& log;
     const std::vector<interpreter::ProgramText>& texts;  ///< the main program first
-    /// The control as it is set, compared with a log.
+    /// A control compared with a log.
     std::function<ComparedRun(const LogOfProgram&)> run;
 };
 
@@ -23,5 +23,8 @@ bool is_quiet(const LogOfProgram& log, const ComparedRun& run);
 /// Replaces the log by another reading of it only where that removes (almost) all of a gap, or, for
 /// late numbers, where the corners of the log itself show it; a note tells.
 void settle_meaning(const LogSource& source, LogOfProgram& log);
+
+/// The same for late numbers alone; false: the log stays as it is.
+bool settle_lateness(const LogSource& source, LogOfProgram& log);
 
 }  // namespace trunnion::choices

@@ -15,6 +15,7 @@ const char* to_string(LogNoise noise);
 
 struct LogOfProgram {
     LogView view;
+    bool late = false;       ///< the numbers of blocks were late or early, and are moved
     bool by_number = false;  ///< the numbers of blocks are N numbers, else lines
     PathOptions path;        ///< options for a path to be compared with this log
     LogNoise noise = LogNoise::assumed;

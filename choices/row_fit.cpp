@@ -19,6 +19,19 @@ constexpr double most_scatter = 0.05;          ///< of the gap: a larger scatter
 
 }  // namespace
 
+std::vector<int> blocks_of(const LogView& log, const ComparedRun& run) {
+    std::vector<int> out(log.rows.size(), 0);
+    for (const Pair& pair : run.pairs)
+        out[pair.row] = static_cast<int>(run.path.nodes[pair.node].block);
+    if (log.keys == 0) return out;
+    for (std::size_t row = 0; row < out.size(); ++row) {
+        int key = log.rows[row].key;
+        if (key < 0) key = log.key_of(run.path.blocks[static_cast<std::size_t>(out[row])]);
+        out[row] = key >= 0 ? key + 1 : log.keys + 1 + out[row];
+    }
+    return out;
+}
+
 std::optional<double> scatter_about(const LogView& view, const ComparedRun& run,
                                     const std::vector<int>& blocks) {
     std::vector<const Pair*> at(view.rows.size(), nullptr);

@@ -10,6 +10,9 @@
 
 namespace trunnion::choices {
 
+/// Block of each row: the one given by the log, else the one of the control at that point.
+std::vector<int> blocks_of(const LogView& log, const ComparedRun& run);
+
 /// Scatter of the samples about the path, from one row of a block to the next: a constant
 /// difference is none. Nothing without enough such rows.
 std::optional<double> scatter_about(const LogView& view, const ComparedRun& run,

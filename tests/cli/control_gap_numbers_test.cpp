@@ -136,9 +136,12 @@ TEST_CASE("diagnose --program: late or early numbers hide no store and make none
             return text("N,", rows, numbers(rows, [late](int) { return late; }));
         });
     }
-    check_three(bench, "rows behind the positions", [](const std::vector<Sample>& rows) {
-        return text("N,", rows, numbers(rows, [](int i) { return 1 + i / 60 % 3; }));
-    });
+    for (const int least : {0, 1}) {
+        INFO("late by " << least << " and up to two more");
+        check_three(bench, "rows behind the positions", [least](const std::vector<Sample>& rows) {
+            return text("N,", rows, numbers(rows, [least](int i) { return least + i / 60 % 3; }));
+        });
+    }
 }
 
 TEST_CASE("diagnose --program: rows without a number go by their neighbours or positions") {
