@@ -23,7 +23,8 @@ class Comparer {
     /// The same program with other positions in the log, which must outlive the result.
     Comparer on(const LogView& log) const {
         PathOptions options = options_;
-        if (!log.ends) options.start = offsets::axis_positions_of(log.rows.front().at);
+        if (!log.ends && !log.begins_within)
+            options.start = offsets::axis_positions_of(log.rows.front().at);
         return {log, program_, programs_, options};
     }
     ControlPath path(const setup::Setup& setup) const {

@@ -109,6 +109,7 @@ class Meanings {
     }
     Meaning part(LogOfProgram log) const {
         log.view.begins_within = true;
+        log.path.start = {};  // its first row is not where the program began
         return meaning(std::move(log));
     }
     /// A trace has only ends of moves: that it lacks the first ones may be the other control's way.
