@@ -20,7 +20,7 @@ constexpr std::size_t most_cells = 4'000'000;  ///< of one block's table; beyond
                                                ///< computed
 constexpr std::size_t spacing_rows = 2;        ///< rows on each side for the distance of samples
 constexpr std::size_t edge_nodes = 4;          ///< of a band: too near to its edge
-constexpr std::size_t wider = 4, widest = 64;  ///< of the margins of a band that was narrow
+constexpr std::size_t wider = 4, widest = 16;  ///< of the margins of a band that was narrow
 constexpr double noise_sigmas = 6.0;           ///< of a row: less adds no way
 
 class Pairer {

@@ -13,10 +13,11 @@ namespace trunnion::choices {
 
 namespace {
 
-constexpr std::size_t first_points = 1500;  ///< of the first look, along the longer way
-constexpr std::size_t finer = 8;            ///< points of the next look for one of this
-constexpr std::size_t margin_points = 3;    ///< of a look, on each side of what it found, at least
-constexpr std::size_t margin_nodes = 8;     ///< at least
+constexpr std::size_t first_points = 1500;       ///< of the first look, along the longer way
+constexpr std::size_t first_points_open = 4000;  ///< the same where the start must be found
+constexpr std::size_t finer = 8;                 ///< points of the next look for one of this
+constexpr std::size_t margin_points = 3;  ///< of a look, on each side of what it found, at least
+constexpr std::size_t margin_nodes = 8;   ///< at least
 constexpr std::size_t asked_every = 64;
 constexpr double without_end = std::numeric_limits<double>::infinity();
 
@@ -32,6 +33,7 @@ class Look {
         for (std::size_t i = 0; i < spans_.low.size(); ++i)
             offset_[i + 1] = offset_[i] + spans_.high[i] - spans_.low[i] + 1;
         step_.assign(offset_.back(), begins);
+        measure();
     }
 
     /// First and last point of the control for each one of the log.
@@ -55,11 +57,30 @@ class Look {
     }
 
   private:
+    /// From the way to the next point: points of both ways need not be opposite each other.
     double square(std::size_t i, std::size_t j) const {
-        double sum = 0.0;
-        const double *a = &log_[i * axes_], *b = &control_[j * axes_];
-        for (std::size_t k = 0; k < axes_; ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
-        return sum;
+        const double *p = &log_[i * axes_], *a = &control_[j * axes_], *way = &way_[j * axes_];
+        double along = 0.0, square = 0.0;
+        for (std::size_t k = 0; k < axes_; ++k) {
+            const double d = p[k] - a[k];
+            along += d * way[k];
+            square += d * d;
+        }
+        const double s = std::clamp(along * inverse_[j], 0.0, 1.0);
+        return square - s * (2.0 * along - s * length_[j]);
+    }
+    void measure() {
+        const std::size_t n = control_.size() / axes_;
+        way_.assign(control_.size(), 0.0);
+        length_.assign(n, 0.0);
+        inverse_.assign(n, 0.0);
+        for (std::size_t j = 0; j + 1 < n; ++j) {
+            for (std::size_t k = j * axes_; k < (j + 1) * axes_; ++k) {
+                way_[k] = control_[k + axes_] - control_[k];
+                length_[j] += way_[k] * way_[k];
+            }
+            if (length_[j] > 0.0) inverse_[j] = 1.0 / length_[j];
+        }
     }
     void fill(std::size_t i, std::size_t j, bool open_start) {
         double least = i == 0 && (j == 0 || open_start) ? 0.0 : without_end;
@@ -95,6 +116,8 @@ class Look {
     Spans spans_;
     std::vector<std::size_t> offset_;
     std::vector<std::uint8_t> step_;
+    std::vector<double> way_;               ///< to the next point
+    std::vector<double> length_, inverse_;  ///< square of it, and 1 / square
     std::vector<double> before_, now_;
 };
 
@@ -202,10 +225,10 @@ void end_if_asked(std::size_t count) {
 
 Spans matched_ways(const Way& rows, const Way& nodes, const OpenEnds& open, std::size_t wide) {
     const double longer = std::max({rows.length(), nodes.length(), 1e-9});
-    // More points than rows or nodes tell nothing more.
-    const double most = static_cast<double>(std::max(rows.size(), nodes.size()));
+    // More points than nodes tell nothing more.
+    const auto most = static_cast<double>(nodes.size());
     const std::size_t axes = rows.axes(), margin = margin_points * wide;
-    double step = longer / static_cast<double>(first_points);
+    double step = longer / static_cast<double>(open.start ? first_points_open : first_points);
     const auto look = [&](const Spans* coarse) {
         const std::vector<double> log = rows.spaced(step), control = nodes.spaced(step);
         const std::size_t m = log.size() / axes, n = control.size() / axes;
