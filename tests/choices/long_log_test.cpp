@@ -106,6 +106,22 @@ TEST_CASE("a long log that begins within the program is paired with its part") {
     CHECK(loss_of(log, path) < 1e-9);
 }
 
+TEST_CASE("a long log that begins in one of several layers finds its own") {
+    ControlPath path = passes(80);
+    const std::vector<choices::PathNode> layer = path.nodes;
+    SeededNoise random(2);
+    for (int k = 1; k < 8; ++k)
+        for (choices::PathNode node : layer) {
+            node.at[Axis::Z] -= k;
+            node.at[Axis::X] += node.at[Axis::X] > 0.0 ? random.uniform() : 0.0;
+            path.nodes.push_back(node);
+        }
+    LogView log = samples(path, 3 * layer.size() + 71, path.nodes.size() - 1, 0.2);
+    log.begins_within = true;
+    CHECK(log.rows.size() * path.nodes.size() > 50'000'000);
+    CHECK(loss_of(log, path) < 1e-9);
+}
+
 TEST_CASE("the limit of time ends a pairing") {
     const ControlPath path = passes(300);
     const LogView log = samples(path, 0, path.nodes.size() - 1, 0.5);
