@@ -194,3 +194,16 @@ TEST_CASE("diagnose --program: a log that begins within the program") {
         return text("line,", later(rows), told);
     });
 }
+
+TEST_CASE("diagnose --program: a first block that the other control skips is no later begin") {
+    const Bench bench;
+    std::string skipping = program(way);
+    skipping.insert(skipping.find("N10 "), "/N5 G1 X50. Y7. Z3. F500.\n");
+    const std::vector<Sample> rows = samples(way, same);
+    for (const char* column : {"N,", ""}) {
+        const Json result = judged(bench, text(column, rows, in_time(rows)), skipping);
+        INFO(result.dump(1) << bench.read("err.txt"));
+        CHECK(cause(result)["effect"] == "block_skip.1=on");
+        CHECK_THAT(bench.read("err.txt"), !Catch::Contains("begins within"));
+    }
+}
