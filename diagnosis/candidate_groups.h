@@ -1,5 +1,5 @@
 // All groups of columns that may explain the gap, one file for each kind: textbook_groups.cpp,
-// table_groups.cpp, offset_groups.cpp, driver_groups.cpp.
+// table_groups.cpp, offset_groups.cpp, driver_groups.cpp, wandering_groups.cpp.
 #pragma once
 
 #include <functional>
@@ -46,5 +46,10 @@ void add_offset_groups(Design& design, const Prepared& prepared, const Whitener&
 /// the gap.
 void add_driver_groups(Design& design, const Prepared& prepared, const Whitener& whitener,
                        Eigen::Index owned);
+
+/// Adds drivers for readings along one direction: an axis whose zero moves to and fro in time. Not
+/// where the axes never come back, so that time and position are one.
+void add_wandering_groups(Design& design, const Prepared& prepared, const Whitener& whitener,
+                          Eigen::Index owned);
 
 }  // namespace trunnion::diagnosis

@@ -9,10 +9,12 @@
 #include "diagnosis/changes.h"
 #include "diagnosis/next_measurement.h"
 #include "diagnosis/offers.h"
+#include "diagnosis/reading_sizes.h"
 #include "diagnosis/rules.h"
 #include "diagnosis/set_up_report.h"
 #include "diagnosis/shrink_interval.h"
 #include "diagnosis/solution.h"
+#include "diagnosis/unknown_cause.h"
 #include "diagnosis/written_setup.h"
 #include "estimation/distributions.h"
 
@@ -29,43 +31,11 @@ constexpr double noise_is_off = 0.1;    ///< relative: larger deviations mean th
 constexpr double least_weight = 1e-4;   ///< of an alternative model
 constexpr std::size_t most_truths = 24;
 
-Eigen::VectorXd noise_mm(const Outcome& f) {
-    Eigen::VectorXd v = f.prepared.base.sigma_mm * std::sqrt(f.judgement.floor);
-    for (Eigen::Index i = 0; i < v.size(); ++i)
-        v(i) *=
-            f.noise.model.of(f.prepared.replay.contact(static_cast<std::size_t>(i)).device).scale;
-    return v;
-}
-
-double rms_um(const Outcome& f, const Eigen::VectorXd& v) {
-    double sum = 0.0, rows = 0.0;
-    for (std::size_t i = 0; i < f.used.size(); ++i) {
-        if (!f.used[i]) continue;
-        sum += std::pow(v(static_cast<Eigen::Index>(i)), 2);
-        rows += 1.0;
-    }
-    return records::micro_per_one(f.prepared.table) * std::sqrt(sum / std::max(1.0, rows));
-}
-
 double independent_readings(const Outcome& f) {
     double rows = 0.0;
     for (const NoiseBlock& block : f.prepared.blocks)
         rows += f.noise.model.of(block.device).independent(static_cast<double>(block.rows.size()));
     return rows;
-}
-
-/// Shrink from left-out whitened residuals, converted to um of the readings.
-HeldOut held_out(const Outcome& f, const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
-    const Eigen::VectorXd noise = noise_mm(f) / std::sqrt(f.judgement.floor);
-    HeldOut h;
-    h.rms_before_um = rms_um(f, before.cwiseProduct(noise));
-    h.rms_after_um = rms_um(f, after.cwiseProduct(noise));
-    h.noise_um = rms_um(f, noise_mm(f));
-    const double gap = h.rms_before_um * h.rms_before_um - h.noise_um * h.noise_um;
-    const double rest = h.rms_after_um * h.rms_after_um - h.noise_um * h.noise_um;
-    h.shrink = gap > 0.0 ? 1.0 - std::sqrt(std::max(0.0, rest) / gap) : 0.0;
-    h.low = h.high = h.shrink;
-    return h;
 }
 
 /// The chosen model, and alternatives with each member left out or replaced by a rival.
@@ -123,24 +93,10 @@ DrawSetting draw_setting(const Outcome& f, const Written& written, std::uint64_t
             seed};
 }
 
-/// The first readings that were set aside, by their index and the line of their file.
-std::string set_aside_words(const Outcome& f) {
-    constexpr int most = 10;
-    std::string words;
-    int count = 0;
-    for (std::size_t i = 0; i < f.used.size(); ++i) {
-        if (f.used[i] || ++count > most) continue;
-        const records::Reading& row = f.prepared.table.rows[i];
-        words += fmt::format("{}{}", words.empty() ? "" : ", ", row.index);
-        if (row.line > 0) words += fmt::format(" (line {})", row.line);
-    }
-    return "set aside, because they fit nothing: readings " + words + (count > most ? ", .." : "");
-}
-
 void describe_size(const Outcome& f, const Solution& solution, Diagnosis& d) {
     const identification::BaseModel& base = f.prepared.base;
     d.readings = f.prepared.replay.size();
-    d.outliers = static_cast<std::size_t>(std::count(f.used.begin(), f.used.end(), false));
+    d.outliers = set_aside(f);
     d.noise = f.noise.model;
     if (d.noise.source != NoiseSource::repeats) {
         const double chance = 3.0 / std::sqrt(2.0 * std::max(1.0, f.design.freedom()));
@@ -212,50 +168,6 @@ void merge_free_forms(const Outcome& f, std::vector<Claim>& claims) {
     }
 }
 
-/// Probability that something is missing in the model. What left-out readings do not confirm may
-/// also be what the others leave uncertain: then the residuals are no larger than that, within the
-/// belief in the noise. The Bayes factor of a p-value is at most 1 / (-e p ln p) (Sellke, Bayarri
-/// and Berger 2001); the prior is that of one more effect.
-double probability_of_unknown(const Outcome& f) {
-    const auto rows = static_cast<double>(std::count(f.used.begin(), f.used.end(), true));
-    const LeftOut left(f.design, f.model, f.prepared.folds, f.used);
-    const double spread = std::hypot(f.noise.prior.spread, 1.0 / std::sqrt(2.0 * rows));
-    const double off = 0.5 * std::log(left.surprise() / rows) - f.noise.prior.log_mean;
-    const double p = std::max(1e-300, estimation::normal_tail(off / spread));
-    const double factor = p < std::exp(-1.0) ? -1.0 / (std::exp(1.0) * p * std::log(p)) : 1.0;
-    const double odds = factor * std::exp(rules::effect_prior);
-    return odds / (1.0 + odds);
-}
-
-Cause unknown_cause(const Outcome& f, const Diagnosis& d) {
-    Cause cause;
-    cause.effect = "unknown";
-    cause.known = false;
-    cause.share = d.unexplained_share;
-    std::string places;
-    for (std::size_t k = 0; k < f.model.members.size(); ++k) {
-        const ColumnGroup& group = f.design.group(f.model.members[k]);
-        if (group.kind != GroupKind::driver && !f.judgement.large[k]) continue;
-        const double blocks = f.judgement.support[k].saving.blocks;
-        const Instead instead = instead_of(f.design, f.model, k, blocks);
-        cause.probability = std::max(cause.probability.value(), instead.probability);
-        for (const std::string& rival : instead.rivals)
-            if (std::find(cause.rivals.begin(), cause.rivals.end(), rival) == cause.rivals.end())
-                cause.rivals.push_back(rival);
-        places += fmt::format(": it {} ({})", group.text, group.component);
-    }
-    if (places.empty()) cause.probability = probability_of_unknown(f);
-    if (places.empty() && cause.probability < 0.5)
-        cause.what = "What left-out readings do not confirm, and the others leave open";
-    else if (cause.rivals.empty())
-        cause.what = "A gap with structure that no effect of the catalogue explains";
-    else
-        cause.what = "A gap with structure that need not be an effect of the catalogue";
-    cause.what += places;
-    cause.heldout = held_out(f, f.judgement.left_before, f.judgement.left_before);
-    return cause;
-}
-
 /// A named rival in all its forms: a measurement must separate the claim from each of them.
 const ColumnGroup& fullest_form(const Design& design, std::size_t rival) {
     const ColumnGroup* fullest = &design.group(rival);
@@ -315,8 +227,10 @@ Judgement as_written(const Outcome& f, const Written& written,
     judgement.between_places &= !written.only_here && !nothing_written;
     if (judgement.between_places && written.part > 0.0)
         judgement.part = std::min(judgement.part, written.part);
+    judgement.beside_zeros = std::min(judgement.beside_zeros, written.part);
     if (holdout)
-        judgement.part = std::min(judgement.part, measured_part(f, written.setup, *holdout));
+        judgement.part = judgement.beside_zeros =
+            std::min(judgement.part, measured_part(f, written.setup, *holdout));
     return judgement;
 }
 
@@ -325,10 +239,20 @@ void tell_sessions(const Outcome& f, const std::vector<Claim>& claims, Diagnosis
     d.sessions = sessions_of(f, d.before_um, d.after_um);
     const Model none{{}, {{}, f.model.variances.nu}, 0.0};
     const Outcome told{f.prepared,  f.design, f.setting, f.judgement.gap ? f.model : none,
-                       f.judgement, f.noise,  f.used,    f.found};
+                       f.judgement, f.noise,  f.used,    f.beside_set_up,
+                       f.found};
     std::vector<bool> claimed(told.model.members.size(), false);
     for (const Claim& claim : claims) claimed[claim.position] = true;
     d.changes = changes_of(told, solved(told.design, told.model), claimed);
+}
+
+/// By its share among the causes; what is rather not there stands last, like any other cause.
+void add_unknown(const Outcome& f, Diagnosis& d) {
+    Cause unknown = unknown_cause(f, d);
+    const bool likely = unknown.probability >= rules::claimed;
+    const auto at = std::find_if(d.causes.begin(), d.causes.end(),
+                                 [&](const Cause& c) { return likely && c.share < unknown.share; });
+    d.causes.insert(at, std::move(unknown));
 }
 
 }  // namespace
@@ -336,8 +260,8 @@ void tell_sessions(const Outcome& f, const std::vector<Claim>& claims, Diagnosis
 Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options) {
     Written written = written_setup(found);
     const Judgement judgement = as_written(found, written, options.holdout);
-    const Outcome f{found.prepared, found.design, found.setting, found.model,
-                    judgement,      found.noise,  found.used,    found.found};
+    const Outcome f{found.prepared, found.design, found.setting,       found.model, judgement,
+                    found.noise,    found.used,   found.beside_set_up, found.found};
     Diagnosis d;
     const Solution solution = solved(f.design, f.model);
     describe_size(f, solution, d);
@@ -345,14 +269,15 @@ Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options) {
     if (f.judgement.gap) {
         const Sizes sizes = sizes_of(f.design, f.model, f.judgement.floor, f.judgement.large);
         claims = claims_of({f.design, f.setting}, f.model, sizes,
-                           {f.judgement.support, f.found, f.prepared.folds, f.judgement.part});
+                           {f.judgement.support, f.found, f.prepared.folds,
+                            std::max(f.judgement.part, f.judgement.beside_zeros)});
         merge_free_forms(f, claims);
     }
     d.verdict = verdict_of(f.judgement, claims);
     d.p_value = chance_of(f);
     d.explained = f.judgement.gap ? std::clamp(f.judgement.part, 0.0, 1.0) : 0.0;
     d.between_places = f.judgement.between_places;
-    if (f.judgement.part <= 0.0) written = written_setup(f);
+    if (std::max(f.judgement.part, f.judgement.beside_zeros) <= 0.0) written = written_setup(f);
     d.setup = written.setup;
     d.writes_causes = std::any_of(written.model.members.begin(), written.model.members.end(),
                                   [&](std::size_t m) { return is_cause(f.design.group(m).kind); });
@@ -378,9 +303,7 @@ Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options) {
     widen(d.after, draws.interval_elsewhere(written.model));
     d.after.high = std::max(d.after.high.value(), fitted_shrink(f, written.model));
     if (d.verdict == Verdict::unexplained || d.verdict == Verdict::partly_explained) {
-        const auto at = std::find_if(d.causes.begin(), d.causes.end(),
-                                     [&](const Cause& c) { return c.share < d.unexplained_share; });
-        d.causes.insert(at, unknown_cause(f, d));
+        add_unknown(f, d);
     }
     if (options.holdout) {
         d.after = measured_shrink(f, d.setup, *options.holdout, options.seed);

@@ -15,7 +15,8 @@ struct Outcome {
     const Judgement& judgement;
     const NoiseBelief& noise;
     const std::vector<bool>& used;
-    const Challenged& found;  ///< the model with the contenders of its causes
+    const std::vector<bool>& beside_set_up;  ///< the same before a model set readings aside
+    const Challenged& found;                 ///< the model with the contenders of its causes
 };
 Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options);
 

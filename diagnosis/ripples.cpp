@@ -32,6 +32,11 @@ double grid_step(const std::vector<double>& places) {
     return step;
 }
 
+/// True for a period of exactly two steps: the readings alternate, and show it at two phases.
+bool alternates(double step, double period) {
+    return step > 0.0 && std::abs(period - 2.0 * step) < 1e-3 * step;
+}
+
 double largest_hole(const std::vector<double>& places, double period) {
     std::vector<double> phase;
     for (const double q : places) phase.push_back(q / period - std::floor(q / period));
@@ -141,6 +146,8 @@ bool shows_period(std::vector<double> places, double period) {
     places = distinct(std::move(places));
     if (places.size() < least_places) return false;
     if (places.back() - places.front() < least_turns * period) return false;
+    // A full step of a motor: every second position is off, and they are many.
+    if (alternates(grid_step(places), period) && places.size() >= many_places) return true;
     if (largest_hole(places, period) > most_hole) return false;
     return period >= least_spacings * grid_step(places);
 }
@@ -155,6 +162,13 @@ std::vector<double> equal_periods(const Prepared& prepared, const effects::Effec
     const double own = keys[ripple->key];
     std::erase_if(list, [&](double key) { return std::abs(key - own) < 1e-2 * own; });
     return list;
+}
+
+bool shows_two_phases(const Prepared& prepared, const effects::Effect& effect,
+                      const std::vector<double>& keys) {
+    const auto ripple = ripple_of(effect, keys);
+    return ripple &&
+           alternates(step_of(distinct(positions_of(prepared, ripple->axis))), ripple->period);
 }
 
 void add_unresolved_ripple(Design& design, const Prepared& prepared, const Whitener& whitener,

@@ -9,13 +9,19 @@ namespace trunnion::diagnosis {
 
 /// A period (mm or rad) is resolved by at least 8 distinct positions over at least two periods,
 /// without a gap in the phase above 0.4 of a period and, if all positions are on an equidistant
-/// grid, with at least two of its steps in a period.
+/// grid, with at least two of its steps in a period. On a grid of 24 positions or more exactly two
+/// steps are enough: the readings alternate.
 bool shows_period(std::vector<double> places, double period);
 
 /// Other keys of the catalogue that a ripple may have: at the positions of its axis, which stand on
 /// a grid, their values are the same (aliases). Empty for any other effect.
 std::vector<double> equal_periods(const Prepared& prepared, const effects::Effect& effect,
                                   const std::vector<double>& keys);
+
+/// True for a ripple of exactly two steps of the grid: only one of its two components is seen, and
+/// nothing of it between the positions.
+bool shows_two_phases(const Prepared& prepared, const effects::Effect& effect,
+                      const std::vector<double>& keys);
 
 /// Adds a ripple that the positions of its axis do not resolve as a possible rival: no model
 /// contains it, but what another effect explains may be this one. Not for fewer than 8 positions,

@@ -122,6 +122,21 @@ bool is_gap(Design& design, const Model& model, const Judgement& j, const Sizes&
     return j.before - j.after >= rules::least_saving * j.floor;
 }
 
+/// H where the zeros of tests are known, large ones as well: what the causes explain of the rest.
+double part_beside_zeros(const Design& design, const Model& model, const LeftOut& left,
+                         double floor) {
+    std::vector<bool> zeros, predicting;
+    for (const std::size_t m : model.members) {
+        zeros.push_back(design.group(m).kind == GroupKind::offset);
+        predicting.push_back(zeros.back() || is_cause(design.group(m).kind));
+    }
+    const double rank = static_cast<double>(design.projection().rank());
+    const double before = left.loss(zeros, zeros).mean(),
+                 after = left.loss(std::vector<bool>(zeros.size(), true), predicting).mean();
+    const double excess = before - floor * (1.0 + rank / std::max(1.0, design.rows()));
+    return excess > 0.0 ? (before - after) / excess : 0.0;
+}
+
 }  // namespace
 
 Judgement judged(FoldColumns& rows, const Prepared& prepared, const Model& model,
@@ -148,6 +163,7 @@ Judgement judged(FoldColumns& rows, const Prepared& prepared, const Model& model
     const double rank = static_cast<double>(design.projection().rank());
     const double excess = j.before - j.floor * (1.0 + rank / std::max(1.0, design.rows()));
     j.part = excess > 0.0 ? (j.before - j.after) / excess : 0.0;
+    j.beside_zeros = part_beside_zeros(design, model, left, j.floor);
     for (std::size_t k = 0; k < model.members.size(); ++k) {
         std::vector<bool> rest = all, rest_predicting = predicting;
         rest[k] = rest_predicting[k] = false;
@@ -156,8 +172,10 @@ Judgement judged(FoldColumns& rows, const Prepared& prepared, const Model& model
         j.equal_periods.push_back(group.kind == GroupKind::periodic
                                       ? equal_periods(prepared, *group.effect, group.keys)
                                       : std::vector<double>{});
+        const bool alternates = group.kind == GroupKind::periodic &&
+                                shows_two_phases(prepared, *group.effect, group.keys);
         j.interpolates.push_back(
-            j.equal_periods.back().empty() && !is_other_course(design, model, k) &&
+            j.equal_periods.back().empty() && !alternates && !is_other_course(design, model, k) &&
             (group.kind != GroupKind::table || holds_between(design, prepared, model, k, used)));
     }
     const Sizes sizes = sizes_of(design, model, j.floor, j.large);
@@ -166,7 +184,10 @@ Judgement judged(FoldColumns& rows, const Prepared& prepared, const Model& model
     j.between_places = share_of_tables(sizes, local) <= rules::between_part;
     // More than noise may be whatever nothing that was found predicts: a wandering machine.
     const bool beyond_noise = std::max(nu2, j.before - j.floor * rank / design.rows()) > noise.most;
-    j.gap = beyond_noise || is_gap(design, model, j, sizes, saving_of(before, after));
+    // So are more spoiled readings than an instrument has.
+    const auto count = static_cast<double>(std::count(used.begin(), used.end(), false));
+    const bool spoiled = count > rules::most_outliers * static_cast<double>(used.size());
+    j.gap = spoiled || beyond_noise || is_gap(design, model, j, sizes, saving_of(before, after));
     return j;
 }
 
@@ -222,7 +243,7 @@ std::vector<DriverShare> where_of(const Design& design, double floor) {
     for (const auto& entry : design.groups()) tried += is_cause(entry.group.kind) ? 0.0 : 1.0;
     for (const auto& entry : design.groups()) {
         const ColumnGroup& group = entry.group;
-        if (is_cause(group.kind)) continue;
+        if (is_cause(group.kind) || group.is_anything) continue;
         const auto own = static_cast<std::ptrdiff_t>(group.columns());
         const estimation::GroupInformation all =
             design.of({group.features.end() - own, group.features.end()});

@@ -21,6 +21,7 @@ struct Judgement {
     double before = 0.0, after = 0.0;  ///< mean squares of left-out residuals: set-up alone, with
                                        ///< the causes
     double part = 0.0;                 ///< H = (before - after) / (before - floor (1 + rank / n))
+    double beside_zeros = 0.0;         ///< the same with all zeros predicted both times
     double evidence = 0.0;             ///< of the model beside the scatter of zeros, nats
     bool gap = false;
     bool between_places = true;

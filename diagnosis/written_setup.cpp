@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <optional>
 
-#include "diagnosis/outliers.h"
 #include "diagnosis/rules.h"
 #include "diagnosis/solution.h"
 #include "effects/settings.h"
 #include "estimation/free_form.h"
+#include "estimation/quantiles.h"
 #include "estimation/ranked_least_squares.h"
 
 namespace trunnion::diagnosis {
@@ -37,24 +37,28 @@ bool is_large(const Outcome& f, std::size_t group) {
     return f.judgement.large[position_of(f, group)];
 }
 
-/// Which members contribute to a prediction: causes and small zeros.
-std::vector<bool> predicting(const Outcome& f, const Model& model) {
+/// Which members contribute to a prediction: causes, and zeros. What is to be written is judged
+/// beside all zeros; the gap contains the large ones.
+enum class Zeros : unsigned char { all, small };
+std::vector<bool> predicting(const Outcome& f, const Model& model, Zeros zeros) {
     std::vector<bool> list;
     for (const std::size_t m : model.members) {
         const GroupKind kind = f.design.group(m).kind;
-        list.push_back(is_cause(kind) || (kind == GroupKind::offset && !is_large(f, m)));
+        const bool zero = kind == GroupKind::offset && (zeros == Zeros::all || !is_large(f, m));
+        list.push_back(is_cause(kind) || zero);
     }
     return list;
 }
 
 BlockLoss loss_of(const Outcome& f, const Model& model, const Folds& folds) {
     return LeftOut(f.design, model, folds, f.used)
-        .loss(std::vector<bool>(model.members.size(), true), predicting(f, model));
+        .loss(std::vector<bool>(model.members.size(), true), predicting(f, model, Zeros::all));
 }
 
-Eigen::VectorXd residual_of(const Outcome& f, const Model& model, const Folds& folds) {
+Eigen::VectorXd residual_of(const Outcome& f, const Model& model, const Folds& folds,
+                            Zeros zeros = Zeros::small) {
     return LeftOut(f.design, model, folds, f.used)
-        .residual(std::vector<bool>(model.members.size(), true), predicting(f, model));
+        .residual(std::vector<bool>(model.members.size(), true), predicting(f, model, zeros));
 }
 
 bool has_tables(const Outcome& f, const Model& model) {
@@ -105,7 +109,7 @@ bool helps(const Saving& saving, double contribution) {
 /// and, where its form was searched, helps on left-out paths. What does not help is dropped one by
 /// one, the worst first.
 std::vector<bool> predicting_elsewhere(const Outcome& f, const Folds& paths) {
-    const std::vector<bool> counts = predicting(f, f.model);
+    const std::vector<bool> counts = predicting(f, f.model, Zeros::all);
     const Eigen::MatrixXd parts = contributions(f.design, f.model, fit_of(f.design, f.model));
     const LeftOut left(f.design, f.model, paths, f.used);
     const auto loss = [&](const std::vector<bool>& fitted) {
@@ -161,11 +165,9 @@ std::vector<Model> candidates_of(const Outcome& f, const Folds& paths) {
     return list;
 }
 
-/// The set-up with the small zeros of tests.
+/// The set-up with all zeros.
 Model without_causes(const Outcome& f) {
-    return only(f, f.model, [&](GroupKind k, std::size_t m) {
-        return k == GroupKind::offset && !is_large(f, m);
-    });
+    return only(f, f.model, [](GroupKind k, std::size_t) { return k == GroupKind::offset; });
 }
 
 /// True when left-out paths deviate from the model by little more than the other paths leave
@@ -197,16 +199,41 @@ bool holds_elsewhere(const Outcome& f, const Model& model, const Folds& paths, c
            (f.judgement.part >= rules::explained && as_expected(f, model, paths, alone.paths));
 }
 
+/// True when a model predicts the typical left-out reading no worse: what helps a few readings that
+/// are far off must not be at the expense of the others. No reading counts more than three
+/// deviations.
+bool is_good_for_most(const Outcome& f, const Eigen::VectorXd& before,
+                      const Eigen::VectorXd& after) {
+    std::vector<double> size;
+    for (std::size_t i = 0; i < f.used.size(); ++i)
+        if (f.used[i]) size.push_back(before(static_cast<Eigen::Index>(i)));
+    const double most =
+        3.0 * std::max(std::sqrt(f.judgement.floor), estimation::robust_deviation(std::move(size)));
+    double saved = 0.0;
+    for (std::size_t i = 0; i < f.used.size(); ++i) {
+        const auto row = static_cast<Eigen::Index>(i);
+        if (!f.used[i]) continue;
+        saved += std::pow(std::min(most, std::abs(before(row))), 2) -
+                 std::pow(std::min(most, std::abs(after(row))), 2);
+    }
+    return saved > 0.0;
+}
+
 /// Takes the best candidate on left-out readings that holds on left-out paths, if there is one.
 void choose(const Outcome& f, const Folds& paths, Written& w) {
     const double rank = static_cast<double>(f.design.projection().rank());
     const double noise = f.judgement.floor * (1.0 + rank / std::max(1.0, f.design.rows()));
     const BlockLoss before = loss_of(f, w.model, f.prepared.folds);
     const Alone alone{before.mean(), loss_of(f, w.model, paths).mean(), noise};
+    const auto left = [&](const Model& m) {
+        return residual_of(f, m, f.prepared.folds, Zeros::all);
+    };
+    const Eigen::VectorXd alone_left = left(w.model);
     double least = alone.blocks;
     for (Model& model : candidates_of(f, paths)) {
         const BlockLoss loss = loss_of(f, model, f.prepared.folds);
         if (loss.mean() >= least || saving_of(before, loss).t < rules::least_t) continue;
+        if (!is_good_for_most(f, alone_left, left(model))) continue;
         if (!holds_elsewhere(f, model, paths, alone)) {
             w.only_here = true;
             continue;
@@ -227,9 +254,8 @@ bool has_causes(const Outcome& f, const Model& model) {
 setup::Setup set_up_alone(const Outcome& f) {
     const identification::BaseModel& base = f.prepared.base;
     Eigen::VectorXd weight = base.sigma_mm.cwiseInverse();
-    for (const std::size_t i :
-         lone_probe_readings(f.prepared, std::vector<bool>(f.prepared.replay.size(), true)))
-        weight(static_cast<Eigen::Index>(i)) = 0.0;
+    for (std::size_t i = 0; i < f.beside_set_up.size(); ++i)
+        if (!f.beside_set_up[i]) weight(static_cast<Eigen::Index>(i)) = 0.0;
     const Eigen::MatrixXd columns = weight.asDiagonal() * base.columns;
     const Model none{{}, {{}, 1.0}, 0.0};
     Solution solution = solved(f.design, none);
@@ -280,7 +306,7 @@ bool has_changes(const Outcome& f, const Model& model) {
 Written written_setup(const Outcome& f) {
     Written w;
     w.model = {{}, {{}, f.model.variances.nu}, 0.0};
-    if (f.judgement.gap && f.judgement.part > 0.0) {
+    if (f.judgement.gap && std::max(f.judgement.part, f.judgement.beside_zeros) > 0.0) {
         const Model none = without_causes(f);
         const Folds paths = path_folds(f.prepared.blocks, f.prepared.replay, f.prepared.table.axes);
         w.model = none;

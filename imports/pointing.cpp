@@ -18,15 +18,14 @@ struct Component {
 /// The measured axes of the machine, the carrying one first.
 class Mount {
   public:
-    Mount(const TextTable& table, const setup::Setup& setup, const LogColumns& log)
-        : setup_(setup) {
+    Mount(const TextTable& table, const setup::Setup& setup, LogColumns& log) : setup_(setup) {
         const kinematics::Chain& chain = setup.machine.chain;
         for (const auto* side : {&chain.work, &chain.tool})
             for (const kinematics::AxisGeometry& axis : *side)
-                if (const AxisColumns* columns = columns_of(log, axis.axis)) {
+                if (AxisColumns* columns = columns_of(log, axis.axis)) {
                     if (!axis.rotary)
                         table.header_line().fail(axis.name + " does not turn: import axis-log", 1);
-                    axes_.push_back(*columns);
+                    axes_.push_back(columns);
                     on_work_.push_back(side == &chain.work);
                 }
         if (axes_.size() > 2 || (axes_.size() == 2 && (on_work_[0] || on_work_[1])))
@@ -34,30 +33,36 @@ class Mount {
                 "one rotary axis, or two that carry the line of sight, are read at a time", 1);
     }
 
-    const std::vector<AxisColumns>& axes() const { return axes_; }
+    const std::vector<AxisColumns*>& axes() const { return axes_; }
+
+    /// A position of one axis that is read in order goes on at the step from 360 to 0 deg; stars
+    /// are anywhere.
+    double going_on(AxisColumns& axis, double commanded) const {
+        return axes_.size() == 1 ? without_roll_over(axis, commanded) : commanded;
+    }
 
     /// One axis: the rotation about it. Two axes: the line of sight is perpendicular to both when
     /// all axes are at zero; measured are the rotation about the second axis, and the rotation
     /// perpendicular to it and to the line of sight, as an angle on the sky.
     std::vector<Component> components(const AxisPositions& at,
                                       const std::vector<double>& errors_rad) const {
-        const Vector3 last = direction_M(axes_.back().axis, at);
-        const std::string name = axes_.back().name;
+        const Vector3 last = direction_M(axes_.back()->axis, at);
+        const std::string name = axes_.back()->name;
         if (axes_.size() == 1) return {{name, on_work_[0] ? Vector3(-last) : last, errors_rad[0]}};
-        const Vector3 first = direction_M(axes_[0].axis, at);
+        const Vector3 first = direction_M(axes_[0]->axis, at);
         AxisPositions zero = at;
-        zero[axes_[1].axis] = 0.0;
+        zero[axes_[1]->axis] = 0.0;
         const Vector3 sight_at_zero =
-            direction_M(axes_[0].axis, zero).cross(direction_M(axes_[1].axis, zero)).normalized();
-        const Vector3 sight = rotation_about(last, at[axes_[1].axis]) * sight_at_zero;
+            direction_M(axes_[0]->axis, zero).cross(direction_M(axes_[1]->axis, zero)).normalized();
+        const Vector3 sight = rotation_about(last, at[axes_[1]->axis]) * sight_at_zero;
         const Vector3 across = sight.cross(last).normalized();
         const Vector3 turned = errors_rad[0] * first + errors_rad[1] * last;
         return {{name, last, last.dot(turned)}, {"across_" + name, across, across.dot(turned)}};
     }
 
   private:
-    static const AxisColumns* columns_of(const LogColumns& log, Axis axis) {
-        for (const AxisColumns& columns : log.axes)
+    static AxisColumns* columns_of(LogColumns& log, Axis axis) {
+        for (AxisColumns& columns : log.axes)
             if (columns.axis == axis && columns.read()) return &columns;
         return nullptr;
     }
@@ -73,7 +78,7 @@ class Mount {
     }
 
     const setup::Setup& setup_;
-    std::vector<AxisColumns> axes_;
+    std::vector<AxisColumns*> axes_;
     std::vector<bool> on_work_;
 };
 
@@ -86,10 +91,10 @@ bool write_line(const LineCells& line, const LogColumns& log, const Mount& mount
     for (const AxisColumns& axis : log.axes)
         if (const auto q = number_or_none(table, i, cells, axis.commanded))
             row.commanded[axis.axis] = *q;
-    for (const AxisColumns& axis : mount.axes()) {
-        const auto entry = log_entry(table, i, cells, axis);
+    for (AxisColumns* axis : mount.axes()) {
+        const auto entry = log_entry(table, i, cells, *axis);
         if (!entry) return false;
-        row.commanded[axis.axis] = entry->commanded;
+        row.commanded[axis->axis] = mount.going_on(*axis, entry->commanded);
         errors_rad.push_back(entry->error);
     }
     const std::string test = row.test;
@@ -107,7 +112,7 @@ void import_sights(const TextTable& table, const ImportRequest& request, RowWrit
     const setup::Setup& setup = request.setup;
     const Facts facts = request.facts.with_head_of(table);
     const TimeColumn time(table, facts);
-    const LogColumns log = log_columns(table, setup, facts, time);
+    LogColumns log = log_columns(table, setup, facts, time);
     const Mount mount(table, setup, log);
     records::Reading row;
     row.test = facts.text("test");

@@ -52,12 +52,12 @@ std::string cause_text(const diagnosis::Diagnosis& d, const diagnosis::Cause& ca
     if (!cause.rivals.empty())
         text +=
             paragraph(fmt::format("{}: {}", rivals_words(cause), fmt::join(cause.rivals, ", ")), 2);
-    text += fmt::format("  held out: {} -> {} (noise {}): shrinks by {} % ({} to {})\n",
-                        size_words(d, cause.heldout.rms_before_um),
-                        size_words(d, cause.heldout.rms_after_um),
-                        size_words(d, cause.heldout.noise_um), percent(cause.heldout.shrink),
-                        percent(cause.heldout.low), percent(cause.heldout.high));
-    return text;
+    text += fmt::format(
+        "  held out: {} -> {} (noise {}): ", size_words(d, cause.heldout.rms_before_um),
+        size_words(d, cause.heldout.rms_after_um), size_words(d, cause.heldout.noise_um));
+    if (cause.heldout.shrink < 0.0) return text + "no better by this alone\n";
+    return text + fmt::format("shrinks by {} % ({} to {})\n", percent(cause.heldout.shrink),
+                              percent(cause.heldout.low), percent(cause.heldout.high));
 }
 
 }  // namespace

@@ -85,6 +85,19 @@ TEST_CASE("a resolver's fourth order is named, although angle and time run alike
     check_nothing_false(d, {"C.positioning", "C.backlash"});
 }
 
+TEST_CASE("a motor whose every second step falls short: a ripple of two steps, at these places",
+          "[diagnosis][like_real]") {
+    const diagnosis::Diagnosis d = diagnosed(
+        {ImportKind::pointing, "full_steps.csv", "bench.toml", {"columns=n,C_cmd_deg,C_act_deg"}});
+    INFO(said(d));
+    REQUIRE(!d.causes.empty());
+    CHECK(d.causes.front().effect == "C.cyclic");
+    CHECK(value_of(d, "C.cyclic", "cos_rad") == Approx(813e-6).epsilon(0.02));
+    CHECK_FALSE(d.between_places);
+    CHECK(d.verdict == diagnosis::Verdict::explained);
+    check_nothing_false(d, {"C.cyclic", "C.positioning"});
+}
+
 TEST_CASE("the lean of an azimuth axis that the setup does not model is a cause",
           "[diagnosis][like_real]") {
     const diagnosis::Diagnosis d = diagnosed({ImportKind::pointing, "telescope.csv", "mount.toml"});

@@ -80,7 +80,7 @@ std::vector<std::size_t> written(const Rows& rows, diagnosis::Design& design,
                                  const diagnosis::Judgement& judgement) {
     const diagnosis::SearchSetting setting = diagnosis::search_setting(design, plain_noise.prior);
     return diagnosis::written_setup({rows.prepared, design, setting, model, judgement, plain_noise,
-                                     rows.used, diagnosis::Challenged{}})
+                                     rows.used, rows.used, diagnosis::Challenged{}})
         .model.members;
 }
 

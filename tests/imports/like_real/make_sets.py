@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the ten sets of this folder: files in the shapes that instruments, controls and people
+"""Writes the sets of this folder: files in the shapes that instruments, controls and people
 write, from machines whose errors are known. It shares nothing with the product: every reading is
 computed here, from formulas of its own, with noise of its own. `truth.txt` lists what the tests
 expect.
@@ -285,8 +285,81 @@ def ballbar():
     truth("ballbar", "Y.backlash_um", reversal, "um")
 
 
+def star_rows(rng, count, start_s, disturbed):
+    """Rows of a telescope whose azimuth axis leans; `disturbed(k)`: errors of azimuth and altitude on
+    the sky, arcsec, that no axis makes. The frame and the signs are those of telescope()."""
+    east, north, collimation, index, arcsec = -50e-6, 40e-6, 140e-6, 80e-6, math.radians(1 / 3600)
+    lines = ["date,time,star,Az (deg),Alt (deg),dAz (arcsec),dAlt (arcsec)"]
+    for k in range(count):
+        az, alt = rng.uniform(0, 360), rng.uniform(15, 78)
+        a, h = math.radians(az), math.radians(alt)
+        # Turned by `east` about X and `north` about Y: along the azimuth circle and upwards.
+        sight = (math.cos(h) * math.sin(a), math.cos(h) * math.cos(a), math.sin(h))
+        moved = (north * sight[2], -east * sight[2], east * sight[1] - north * sight[0])
+        across = moved[0] * math.cos(a) - moved[1] * math.sin(a)
+        rise = (-moved[0] * math.sin(h) * math.sin(a) - moved[1] * math.sin(h) * math.cos(a)
+                + moved[2] * math.cos(h))
+        more_az, more_alt = disturbed(k)
+        d_az = ((across + collimation) / arcsec + rng.gauss(0, 5.0) + more_az) / math.cos(h)
+        d_alt = (rise + index) / arcsec + rng.gauss(0, 5.0) + more_alt
+        s = start_s + 95 * k
+        lines.append(f"2024-02-{17 + s // 86400},{s // 3600 % 24:02}:{s // 60 % 60:02}:{s % 60:02},HR{1000 + k},"
+                     f"{az:.4f},{alt:.4f},{d_az:.2f},{d_alt:.2f}")
+    return "\n".join(lines) + "\n"
+
+
+def stars_wild():
+    """A night of 24 stars, three of them mistaken for others."""
+    rng = random.Random(11)
+    wild = {4, 12, 19}
+    save("stars_wild.csv", star_rows(rng, 24, 70000, lambda k: (rng.gauss(0, 300), rng.gauss(0, 300))
+                                     if k in wild else (0.0, 0.0)))
+    save("stars_fresh.csv", star_rows(rng, 150, 160000, lambda k: (0.0, 0.0)))
+    truth("stars_wild", "noise_urad", math.radians(5 / 3600) * 1e6, "urad")
+
+
+def stars_slip():
+    """Another night: the azimuth slips by 24 arcsec on the sky, and back, every 20 stars."""
+    rng = random.Random(12)
+    save("stars_slip.csv", star_rows(rng, 120, 70000, lambda k: (24.0 * (k // 20 % 2), 0.0)))
+    truth("stars_slip", "slip_arcsec", 24.0, "arcsec")
+
+
+def laser_drifting():
+    """Five cycles of a laser whose zero moves from cycle to cycle by more than all else."""
+    rng = random.Random(13)
+    targets = [round(i * 50 + d, 3) for i, d in enumerate([0, .7, -.4, 1.1, .2, -.9, .5, .1, -.3, .8, .4])]
+    for name, cycles in (("laser_drifting.csv", 5), ("laser_fresh.csv", 4)):
+        zero, lines = 0.0, ["target_mm,error_um,run,direction"]
+        for cycle in range(1, cycles + 1):
+            zero += rng.gauss(0, 15)
+            for way, order in (("+", targets), ("-", targets[::-1])):
+                for t in order:
+                    error = wave(t, 500) * .6 + zero + (6 if way == "+" else -6) + rng.gauss(0, .5)
+                    lines.append(f"{t:.3f},{error:.2f},{cycle},{way}")
+        save(name, "\n".join(lines) + "\n")
+    truth("laser_drifting", "reversal_um", 12.0, "um")
+
+
+def full_steps():
+    """A motor of 200 full steps against an encoder: every second step falls short."""
+    rng = random.Random(14)
+    lines = ["n,C_cmd_deg,C_act_deg"]
+    k = 0
+    for _ in range(2):
+        for order in (range(200), range(200, 0, -1)):
+            for i in order:
+                angle = 2 * math.pi * i / 200
+                error = 813e-6 * (1 if i % 2 == 0 else -1) + 150e-6 * math.cos(angle) + rng.gauss(0, 4e-6)
+                lines.append(f"{k},{math.degrees(angle):.6f},{math.degrees(angle + error):.6f}")
+                k += 1
+    save("full_steps.csv", "\n".join(lines) + "\n")
+    truth("full_steps", "alternating_urad", 813.0, "urad")
+
+
 if __name__ == "__main__":
     for write in (laser_matrix, laser_list, mill_log, sampler, plate_wide, plate_lines, resolver, telescope,
-                  robot, ballbar):
+                  robot, ballbar, stars_wild, stars_slip, laser_drifting,
+                  full_steps):
         write()
     (HERE / "truth.txt").write_text("\n".join(TRUTH) + "\n")

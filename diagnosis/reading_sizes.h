@@ -1,0 +1,20 @@
+// Sizes of noise, gap and shrink on the readings, um.
+#pragma once
+
+#include "diagnosis/diagnosis_report.h"
+
+namespace trunnion::diagnosis {
+
+/// Noise of each device row, mm.
+Eigen::VectorXd noise_mm(const Outcome& found);
+
+/// Rms over the readings that were not set aside, um (urad where all readings are angles).
+double rms_um(const Outcome& found, const Eigen::VectorXd& left_mm);
+
+/// Shrink from left-out whitened residuals, converted to um of the readings.
+HeldOut held_out(const Outcome& found, const Eigen::VectorXd& before, const Eigen::VectorXd& after);
+
+/// Number of readings that were set aside.
+std::size_t set_aside(const Outcome& found);
+
+}  // namespace trunnion::diagnosis

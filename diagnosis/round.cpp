@@ -1,0 +1,248 @@
+#include "diagnosis/round.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "diagnosis/candidate_groups.h"
+#include "diagnosis/changes.h"
+#include "diagnosis/machine_jump.h"
+#include "diagnosis/ripples.h"
+#include "diagnosis/solution.h"
+#include "effects/settings.h"
+#include "identification/identify.h"
+
+namespace trunnion::diagnosis {
+namespace {
+
+constexpr double outlier_sigma = 1e3;  ///< sigma of an excluded reading, relative to its own
+constexpr int first_keys = 2;
+
+/// Whitened set-up and data, with an additional row for each calibrated value.
+Design empty_design(const Prepared& p, const Whitener& whitener, const std::vector<bool>& used) {
+    std::vector<std::size_t> calibrated;
+    for (std::size_t j = 0; j < p.base.parameters.size(); ++j)
+        if (p.base.parameters[j].prior_sigma > 0.0) calibrated.push_back(j);
+    const Eigen::Index n = p.base.residual_mm.size();
+    const auto extra = static_cast<Eigen::Index>(calibrated.size());
+    Eigen::MatrixXd known = Eigen::MatrixXd::Zero(n + extra, p.base.columns.cols());
+    Eigen::VectorXd data(n + extra);
+    Eigen::MatrixXd columns = p.base.columns;
+    whitener.apply(columns);
+    known.topRows(n) = columns;
+    data.head(n) = whitener.apply(p.base.residual_mm);
+    for (Eigen::Index k = 0; k < extra; ++k) {
+        const std::size_t j = calibrated[static_cast<std::size_t>(k)];
+        const identification::FitParameter& q = p.base.parameters[j];
+        known(n + k, static_cast<Eigen::Index>(j)) = q.typical / q.prior_sigma;
+        data(n + k) = (q.prior_value - q.value) / q.prior_sigma;
+    }
+    const auto rows = static_cast<double>(std::count(used.begin(), used.end(), true) + extra);
+    return {std::move(known), std::move(data), rows};
+}
+
+/// What a model leaves of the readings, and what may hide in it.
+KeySearch::Remainder left_by(const Prepared& p, KeySearch& keys, Design& design,
+                             const Model& model) {
+    return keys.remainder(rest_of(p, design, model), fitted_mm(p, design, model));
+}
+
+struct KeyedEffect {
+    const effects::Effect* effect;
+    std::vector<double> keys;
+};
+
+/// The `count` most promising settings of each keyed effect.
+std::vector<KeyedEffect> promising(const Prepared& p, KeySearch& keys,
+                                   const KeySearch::Remainder& left, int count) {
+    std::vector<KeyedEffect> list;
+    for (const effects::Effect& effect : p.catalogue) {
+        if (!has_keys(effect) || !is_searched(p, effect)) continue;
+        for (auto& setting : keys.best(effect, left, count))
+            list.push_back({&effect, std::move(setting)});
+    }
+    return list;
+}
+
+/// Adds these settings; of each effect the first, if it is a ripple that the positions do not
+/// resolve, as a possible rival, with its keys refined on the residual `rest_mm`.
+void add_keyed(Design& design, const Prepared& p, const Whitener& whitener,
+               const std::vector<KeyedEffect>& list, const Eigen::VectorXd& rest_mm) {
+    const effects::Effect* last = nullptr;
+    for (const KeyedEffect& keyed : list) {
+        const bool first = std::exchange(last, keyed.effect) != keyed.effect;
+        if (add_ripple_or_other(design, p, whitener, *keyed.effect, keyed.keys) || !first) continue;
+        add_unresolved_ripple(
+            design, p, whitener, *keyed.effect,
+            identification::refine_keys(p.replay, p.base, *keyed.effect, keyed.keys, rest_mm));
+    }
+}
+
+/// A group with the keys of one member refined on the residual of the other causes.
+std::optional<std::size_t> refined_group(Design& design, const Prepared& p,
+                                         const Whitener& whitener, const Model& model,
+                                         std::size_t position) {
+    const ColumnGroup group = design.group(model.members[position]);
+    const Model rest = without(model, position);
+    return add_ripple_or_other(design, p, whitener, *group.effect,
+                               identification::refine_keys(p.replay, p.base, *group.effect,
+                                                           group.keys, rest_of(p, design, rest)));
+}
+
+Model without_drivers(const Design& design, Model model) {
+    for (std::size_t k = model.members.size(); k-- > 0;)
+        if (design.group(model.members[k]).kind == GroupKind::driver) model = without(model, k);
+    return model;
+}
+
+/// Refines the keys of members, and grows the model again from there. Drivers are excluded
+/// meanwhile, because they would absorb the residual of a wrong key and conceal it. Returns the
+/// better model.
+Model with_refined_keys(Design& design, const SearchSetting& setting, const Prepared& p,
+                        const Whitener& whitener, Model model) {
+    Model trial = without_drivers(design, model);
+    bool changed = false;
+    for (std::size_t k = 0; k < trial.members.size(); ++k) {
+        if (design.group(trial.members[k]).kind != GroupKind::periodic) continue;
+        const auto better = refined_group(design, p, whitener, trial, k);
+        if (!better) continue;
+        trial.members[k] = *better;
+        changed = true;
+    }
+    if (!changed) return model;
+    trial = grown(design, setting, tuned(design, setting, std::move(trial), 2));
+    return trial.score > model.score ? trial : model;
+}
+
+/// Adds ripples of an axis in place of its free-form positioning error, which may imitate them.
+void add_ripples_instead(Design& design, const Prepared& p, const Whitener& whitener,
+                         KeySearch& keys, const Model& model) {
+    for (std::size_t k = 0; k < model.members.size(); ++k) {
+        const ColumnGroup& group = design.group(model.members[k]);
+        if (group.kind != GroupKind::table ||
+            group.table.motion != effects::EffectKind::positioning)
+            continue;
+        const effects::Effect* ripple =
+            effects::find_effect(p.catalogue, effects::EffectKind::cyclic, group.table.axis.axis);
+        if (!ripple || modelled(p, *ripple)) continue;
+        const Model rest = without(model, k);
+        std::vector<KeyedEffect> list;
+        for (auto& setting : keys.best(*ripple, left_by(p, keys, design, rest), first_keys))
+            list.push_back({ripple, std::move(setting)});
+        add_keyed(design, p, whitener, list, rest_of(p, design, rest));
+    }
+}
+
+/// Adds keyed effects in place of a driver, which needs no keys: with rough ones they would lose.
+void add_keyed_instead(Design& design, const Prepared& p, const Whitener& whitener, KeySearch& keys,
+                       const Model& model) {
+    for (std::size_t k = 0; k < model.members.size(); ++k) {
+        if (design.group(model.members[k]).kind != GroupKind::driver) continue;
+        const Model rest = without(model, k);
+        const Eigen::VectorXd rest_mm = rest_of(p, design, rest);
+        auto list = promising(p, keys, left_by(p, keys, design, rest), 1);
+        for (KeyedEffect& keyed : list)
+            keyed.keys = identification::refine_keys(p.replay, p.base, *keyed.effect,
+                                                     std::move(keyed.keys), rest_mm);
+        add_keyed(design, p, whitener, list, rest_mm);
+    }
+}
+
+/// The members of an earlier round in a new design; searched keys are added again.
+Model carried_over(const Searched& earlier, Design& design, const Prepared& p,
+                   const Whitener& whitener) {
+    Model model{{}, {{}, earlier.model.variances.nu}, 0.0};
+    for (std::size_t k = 0; k < earlier.model.members.size(); ++k) {
+        const ColumnGroup& group = earlier.design.group(earlier.model.members[k]);
+        std::optional<std::size_t> at;
+        if (group.kind == GroupKind::periodic)
+            at = add_keyed_group(design, p, whitener, *group.effect, group.keys);
+        for (std::size_t g = 0; !at && g < design.groups().size(); ++g)
+            if (same_cause(design.group(g), group) &&
+                design.group(g).parameters == group.parameters &&
+                design.group(g).shape.rows() == group.shape.rows() &&
+                (group.kind != GroupKind::table ||
+                 (design.group(g).shape.cols() == group.shape.cols() &&
+                  design.group(g).shape == group.shape)))
+                at = g;
+        if (!at) continue;
+        model.members.push_back(*at);
+        model.variances.tau.push_back(earlier.model.variances.tau[k]);
+    }
+    return model;
+}
+
+}  // namespace
+
+Eigen::VectorXd rest_of(const Prepared& p, Design& design, const Model& model) {
+    return left_mm(p, design, model, solved(design, model));
+}
+
+NoiseBelief belief_of(const Prepared& p, const Eigen::VectorXd& residual_mm,
+                      const Eigen::VectorXd& sigma_mm) {
+    NoiseModel start;
+    start.source = p.base.noise_given ? NoiseSource::given : NoiseSource::assumed;
+    NoiseBelief belief;
+    belief.model = noise_from_repeats({p.replay, p.table, p.blocks}, residual_mm, sigma_mm, start);
+    switch (belief.model.source) {
+        case NoiseSource::repeats:
+            belief.prior.spread = std::max(0.03, 0.5 * belief.model.doubt);
+            break;
+        case NoiseSource::given: belief.prior.spread = 0.3; break;
+        case NoiseSource::assumed: belief.prior.spread = 0.7; break;
+    }
+    belief.most = std::exp(2.0 * 2.0 * std::max(0.3, belief.prior.spread));
+    return belief;
+}
+
+void leave_out(const Prepared& p, const std::vector<std::size_t>& rows, Round& round) {
+    for (const std::size_t i : rows) {
+        const auto row = static_cast<Eigen::Index>(i);
+        round.used[i] = false;
+        round.sigma_mm(row) = outlier_sigma * p.base.sigma_mm(row);
+    }
+}
+
+Searched search_of(const Prepared& p, const Round& round, KeySearch& keys, const Searched* earlier,
+                   const std::function<bool()>& go_on) {
+    const Whitener whitener(p.replay, p.blocks, round.noise.model, round.sigma_mm);
+    Design design = empty_design(p, whitener, round.used);
+    Eigen::Index owned = add_textbook_groups(design, p, whitener);
+    if (round.over_sessions) owned += add_change_groups(design, p, whitener);
+    add_table_groups(design, p, whitener);
+    add_offset_groups(design, p, whitener);
+    add_driver_groups(design, p, whitener, owned);
+    add_wandering_groups(design, p, whitener, owned);
+    SearchSetting setting = search_setting(design, round.noise.prior);
+    setting.go_on = go_on;
+    setting.refine = [&](const Model& m, std::size_t position) {
+        return refined_group(design, p, whitener, m, position);
+    };
+    Model model;
+    if (earlier) {
+        model = tuned(design, setting, carried_over(*earlier, design, p, whitener), 2);
+    } else {
+        const auto left = left_by(p, keys, design, empty_model(design, setting));
+        add_keyed(design, p, whitener, promising(p, keys, left, first_keys),
+                  rest_of(p, design, empty_model(design, setting)));
+        model = searched(design, setting);
+    }
+    for (int pass = 0; pass < 2 && !setting.stopped(); ++pass) {
+        const double before = model.score;
+        model = with_refined_keys(design, setting, p, whitener, std::move(model));
+        add_keyed(design, p, whitener, promising(p, keys, left_by(p, keys, design, model), 1),
+                  rest_of(p, design, model));
+        add_ripples_instead(design, p, whitener, keys, model);
+        add_keyed_instead(design, p, whitener, keys, model);
+        model = settled(design, setting, grown(design, setting, std::move(model)));
+        if (model.score < before + 1.0) break;
+    }
+    FoldColumns rows(design, {p.folds, round.used});
+    model = without_idle_members(rows, setting, std::move(model));
+    add_jumps_instead(design, p, whitener, keys, model);
+    setting.refine = {};  // what it refers to ends here
+    setting.go_on = {};
+    return {std::move(design), std::move(setting), std::move(model)};
+}
+
+}  // namespace trunnion::diagnosis

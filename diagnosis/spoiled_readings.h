@@ -1,0 +1,24 @@
+// Spoiled readings, a few of few or up to a fifth of many: the evidence tells them from what the
+// machine does. (A few of many, which spoil no fit: diagnosis/outliers.h.)
+#pragma once
+
+#include "diagnosis/prepare.h"
+
+namespace trunnion::diagnosis {
+
+struct DoubtfulReadings {
+    std::vector<std::size_t> rows;  ///< device rows, ascending; empty: none are in doubt
+    double largest = 0.0;           ///< of their residuals, in sigma
+    double usual = 0.0;             ///< robust deviation of all residuals, in sigma
+};
+/// Readings far from a fit of the set-up that they cannot influence (estimation/trimmed_fit.h),
+/// where they are at most 20 % of `used`, of more than 1,000 readings more than 4 %, and not side
+/// by side in time. Only of devices whose readings are taken one by one: a ballbar or a servo log
+/// is one course.
+DoubtfulReadings doubtful_readings(const Prepared& prepared, const std::vector<bool>& used);
+
+/// Log likelihood of doubtful readings as spoiled ones, each anywhere in their spread, and of the
+/// other rows of `used` as good ones. To be added to the likelihood of a model of the others.
+double likelihood_of_spoiled(const DoubtfulReadings& doubtful, const std::vector<bool>& used);
+
+}  // namespace trunnion::diagnosis

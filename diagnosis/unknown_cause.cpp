@@ -1,0 +1,87 @@
+#include "diagnosis/unknown_cause.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/reading_sizes.h"
+#include "diagnosis/rules.h"
+#include "estimation/distributions.h"
+
+namespace trunnion::diagnosis {
+namespace {
+
+bool is_spoiled(const Outcome& f) {
+    return static_cast<double>(set_aside(f)) >
+           rules::most_outliers * static_cast<double>(f.used.size());
+}
+
+/// Probability that something is missing in the model. What left-out readings do not confirm may
+/// also be what the others leave uncertain: then the residuals are no larger than that, within the
+/// belief in the noise. The Bayes factor of a p-value is at most 1 / (-e p ln p) (Sellke, Bayarri
+/// and Berger 2001); the prior is that of one more effect.
+double probability_of_unknown(const Outcome& f) {
+    const auto rows = static_cast<double>(std::count(f.used.begin(), f.used.end(), true));
+    const LeftOut left(f.design, f.model, f.prepared.folds, f.used);
+    const double spread = std::hypot(f.noise.prior.spread, 1.0 / std::sqrt(2.0 * rows));
+    const double off = 0.5 * std::log(left.surprise() / rows) - f.noise.prior.log_mean;
+    const double p = std::max(1e-300, estimation::normal_tail(off / spread));
+    const double factor = p < std::exp(-1.0) ? -1.0 / (std::exp(1.0) * p * std::log(p)) : 1.0;
+    const double odds = factor * std::exp(rules::effect_prior);
+    return odds / (1.0 + odds);
+}
+
+}  // namespace
+
+std::string set_aside_words(const Outcome& f) {
+    constexpr int most = 10;
+    std::string words;
+    int count = 0;
+    for (std::size_t i = 0; i < f.used.size(); ++i) {
+        if (f.used[i] || ++count > most) continue;
+        const records::Reading& row = f.prepared.table.rows[f.prepared.replay.table_row(i)];
+        words += fmt::format("{}{}", words.empty() ? "" : ", ", row.index);
+        if (row.line > 0) words += fmt::format(" (line {})", row.line);
+    }
+    return "set aside, because they fit nothing: readings " + words + (count > most ? ", .." : "");
+}
+
+Cause unknown_cause(const Outcome& f, const Diagnosis& d) {
+    Cause cause;
+    cause.effect = "unknown";
+    cause.known = false;
+    cause.share = d.unexplained_share;
+    std::string places;
+    for (std::size_t k = 0; k < f.model.members.size(); ++k) {
+        const ColumnGroup& group = f.design.group(f.model.members[k]);
+        if (group.kind != GroupKind::driver && !f.judgement.large[k]) continue;
+        const double blocks = f.judgement.support[k].saving.blocks;
+        const Instead instead = instead_of(f.design, f.model, k, blocks);
+        cause.probability = std::max(cause.probability.value(), instead.probability);
+        for (const std::string& rival : instead.rivals)
+            if (std::find(cause.rivals.begin(), cause.rivals.end(), rival) == cause.rivals.end())
+                cause.rivals.push_back(rival);
+        places += fmt::format(": it {} ({})", group.text, group.component);
+    }
+    if (places.empty()) cause.probability = probability_of_unknown(f);
+    if (is_spoiled(f) && places.empty()) {
+        // Laplace's rule of succession: that many were seen.
+        const auto count = static_cast<double>(set_aside(f));
+        cause.probability = std::max(cause.probability.value(), (count + 1.0) / (count + 2.0));
+        cause.what = fmt::format(
+            "{} of {} readings fit nothing and were set aside: they are spoiled, or the machine "
+            "differs there. Take them again",
+            set_aside(f), f.used.size());
+    } else if (places.empty() && cause.probability < 0.5)
+        cause.what = "What left-out readings do not confirm, and the others leave open";
+    else if (cause.rivals.empty())
+        cause.what = "A gap with structure that no effect of the catalogue explains";
+    else
+        cause.what = "A gap with structure that need not be an effect of the catalogue";
+    cause.what += places;
+    cause.heldout = held_out(f, f.judgement.left_before, f.judgement.left_before);
+    return cause;
+}
+
+}  // namespace trunnion::diagnosis
