@@ -167,7 +167,8 @@ bool may_be_instead(const ColumnGroup& own, const ColumnGroup& other) {
 /// Other causes that explain nearly as much in place of the member.
 void name_rivals(const Design& design, const Offer& held, const std::vector<Offer>& others,
                  Claim& claim) {
-    const double most = rules::rival_limit(held.explained());
+    const double most =
+        std::min(rules::rival_limit(held.explained()), rules::rival_left * design.rows());
     const ColumnGroup& own = design.group(held.group);
     std::vector<std::pair<double, std::size_t>> found;
     for (const Offer& o : others) {

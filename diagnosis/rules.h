@@ -43,6 +43,7 @@ constexpr double driver_p = 1e-4;       ///< significance level of a driver
 constexpr double driver_share = 0.05;
 constexpr double rival_loss = 12.0;  ///< maximum chi-squared lost by a rival
 constexpr double rival_part = 0.04;  ///< ... or as a part of the contribution
+constexpr double rival_left = 3.0;   ///< ... and of a reading: no rival leaves twice the rms
 
 constexpr double set_up_range = 20.0;  ///< typical sizes: sigma of a set-up value beforehand;
                                        ///< unobservable directions stay constant

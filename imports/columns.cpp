@@ -6,6 +6,7 @@
 #include <cctype>
 
 #include "base/alarm.h"
+#include "base/numbers.h"
 #include "imports/times.h"
 
 namespace trunnion::imports {
@@ -77,14 +78,42 @@ NumberColumn number_column(const TextTable& table, std::size_t index, Quantity q
     if (!unit || unit->quantity != quantity)
         table.header_line().fail("'" + name + "' is no unit for '" + column.name + "' here",
                                  column.column);
-    return {index, unit->factor};
+    const bool parts =
+        quantity == Quantity::angle && (unit->factor == find_unit_of_angle("deg")->factor ||
+                                        unit->factor == find_unit_of_angle("h")->factor);
+    return {index, unit->factor, parts};
 }
+
+namespace {
+
+/// Whole units, minutes and seconds, each below 60, divided by colons.
+std::optional<double> from_sexagesimal(std::string_view text) {
+    text = records::without_blanks(text);
+    const bool negative = text.starts_with('-');
+    if (negative || text.starts_with('+')) text.remove_prefix(1);
+    double sum = 0.0, unit = 1.0;
+    for (int part = 0; part < 3; ++part, unit /= 60.0) {
+        const std::size_t end = part < 2 ? text.find(':') : text.size();
+        if (end == std::string_view::npos || text.empty() || text.front() < '0' ||
+            text.front() > '9')
+            return std::nullopt;
+        const auto value = parse_number(text.substr(0, end));
+        if (!value || (part > 0 && *value >= 60.0)) return std::nullopt;
+        sum += *value * unit;
+        text.remove_prefix(std::min(text.size(), end + 1));
+    }
+    return negative ? -sum : sum;
+}
+
+}  // namespace
 
 double number_in(const TextTable& table, std::size_t row,
                  const std::vector<records::TableCell>& cells, const NumberColumn& column) {
     const records::TableCell& cell = cells[column.index];
     const std::string& name = table.columns()[column.index].name;
     if (const auto value = table.find_number(cell.text)) return *value * column.factor;
+    if (column.sexagesimal)
+        if (const auto value = from_sexagesimal(cell.text)) return *value * column.factor;
     const std::size_t cut = cell.text.find_first_not_of("+-0123456789.,eE ");
     if (cut != std::string_view::npos && cut > 0 && find_unit(cell.text.substr(cut)))
         table.line(row).fail("a unit in the cell: '" + name +

@@ -31,7 +31,8 @@ struct LineCells {
 /// A column of numbers of one quantity.
 struct NumberColumn {
     std::size_t index = 0;
-    double factor = 1.0;  ///< to mm, rad or s
+    double factor = 1.0;       ///< to mm, rad or s
+    bool sexagesimal = false;  ///< degrees or hours, which may be written as -12:34:56.7
 };
 /// The unit comes from the column, else from `otherwise`; throws InputError when neither gives it,
 /// or when it belongs to another quantity.
@@ -40,7 +41,8 @@ NumberColumn number_column(const TextTable& table, std::size_t index, Quantity q
 /// The column for the first list of names that matches (find_column).
 std::optional<std::size_t> find_first_column(const TextTable& table,
                                              const std::vector<std::vector<std::string>>& lists);
-/// One number. An empty cell, or a unit after the number, throws InputError with its position.
+/// One number; of degrees or hours also -12:34:56.7 (minutes and seconds below 60). An empty cell,
+/// or a unit after the number, throws InputError with its position.
 double number_in(const TextTable& table, std::size_t row,
                  const std::vector<records::TableCell>& cells, const NumberColumn& column);
 

@@ -216,6 +216,28 @@ TEST_CASE("an angular form that straightness does as well is a free form of its 
     }
 }
 
+TEST_CASE("what leaves twice the noise can be told apart, however well it imitates the rest",
+          "[diagnosis]") {
+    using diagnosis::GroupKind;
+    SeededNoise random(29);
+    const Eigen::MatrixXd base = random_matrix(random, 2), truth = random_matrix(random, 1);
+    const Eigen::MatrixXd other = random_matrix(random, 1);
+    const Eigen::VectorXd data = 500.0 * truth.col(0) + random_matrix(random, 1).col(0);
+    for (const double apart : {0.001, 0.15}) {  // leaves 0.5 and 75 times the noise
+        diagnosis::Design design(base, data, rows);
+        design.add(group_of(design, "Z.straightness", GroupKind::textbook, 100.0 * truth));
+        design.add(
+            group_of(design, "X.scale", GroupKind::textbook, 100.0 * (truth + apart * other)));
+        const diagnosis::SearchSetting setting = diagnosis::search_setting(design, {0.0, 0.1});
+        const diagnosis::Model model =
+            diagnosis::tuned(design, setting, {{0}, {{5.0}, 1.0}, 0.0}, 3);
+        const auto claims = claims_of({design, setting}, unrivalled(model));
+        INFO(apart);
+        REQUIRE(claims.size() == 1);
+        CHECK(claims.front().rivals.empty() == (apart > 0.1));
+    }
+}
+
 TEST_CASE("a model that a contender beats gives way to it", "[diagnosis]") {
     SeededNoise random(12);
     const std::vector<bool> used(rows, true);

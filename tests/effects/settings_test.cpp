@@ -136,6 +136,19 @@ TEST_CASE("values and settings are each other's inverse", "[effects]") {
 
 namespace {
 
+/// What only a tool side that turns has: a telescope, an arm, a head that carries a head.
+effects::Catalogue of_a_telescope() {
+    std::vector<std::string> notes;
+    effects::Catalogue all = effects::make_catalogue(
+        setup::load_setup(TRUNNION_SOURCE_DIR "/tests/imports/like_real/mount.toml", notes));
+    const effects::Catalogue known = effects::make_catalogue(campaign::bc_setup());
+    std::erase_if(all, [&](const effects::Effect& effect) {
+        return std::any_of(known.begin(), known.end(),
+                           [&](const effects::Effect& k) { return k.kind == effect.kind; });
+    });
+    return all;
+}
+
 std::string effects_page() {
     return "# Effects\n\nEvery effect of the catalogue on a BC table machine (`effects/`). Names "
            "and "
@@ -143,7 +156,10 @@ std::string effects_page() {
            "results. Typical sizes are prior standard deviations; q is the axis position (mm, "
            "rad), "
            "keys are searched. Written by `test_effects '[docs]'`.\n\n" +
-           effects::describe_catalogue(effects::make_catalogue(campaign::bc_setup()));
+           effects::describe_catalogue(effects::make_catalogue(campaign::bc_setup())) +
+           "\nOn a telescope or an arm, whose tool side turns, also (`trunnion effects "
+           "--setup`):\n\n" +
+           effects::describe_catalogue(of_a_telescope());
 }
 
 const char* page_path = TRUNNION_SOURCE_DIR "/docs/effects.md";

@@ -116,6 +116,22 @@ TEST_CASE("hours of an angle are 15 degrees, where its own column says so", "[im
                                         ""});
     REQUIRE(hours.size() == 4);
     for (std::size_t k = 0; k < 4; ++k) CHECK(*hours[k].value_mm == Approx(*degrees[k].value_mm));
+    const auto parts = imported_rows(
+        {imports::ImportKind::pointing,
+         "HA cmd [h],HA act [h],Dec cmd [deg],Dec act [deg]\n"
+         "01:30:00,01:30:07.2,+30:00:00,30:00:36\n-02:00:00,-1:59:56.4,40:00:00,40.0\n",
+         {},
+         ""});
+    REQUIRE(parts.size() == 4);
+    for (std::size_t k = 0; k < 4; ++k) CHECK(*parts[k].value_mm == Approx(*hours[k].value_mm));
+    for (const char* wrong : {"01:60:00", "01:30", "1:2:3:4", "1::3", "1:-2:3", "+-1:2:3"})
+        refuses(mount(),
+                {imports::ImportKind::pointing,
+                 "HA cmd [h],HA act [h],Dec cmd [deg],Dec act [deg]\n1.5,1.502,30,30\n" +
+                     std::string(wrong) + ",1,30,30\n",
+                 {},
+                 ""},
+                wrong, 3);
     // A declination without a unit beside it would be in hours too.
     refuses(
         mount(),
