@@ -23,8 +23,9 @@ namespace {
 /// From a longer table this number is selected evenly: enough to identify causes of a hundredth of
 /// the noise.
 constexpr std::size_t most_readings = 10000;
-constexpr int most_rounds = 3;     ///< of search, noise and linearisation
-constexpr double most_bent = 3.0;  ///< growth of the residual by a prediction that is not linear
+constexpr int most_rounds = 3;       ///< of search, noise and linearisation
+constexpr double most_bent = 3.0;    ///< growth of the residual by a prediction that is not linear
+constexpr double fits_within = 3.0;  ///< deviations: a reading that was set aside fits a model
 constexpr double explained_left = 1.2;  ///< noise of a model that explains doubtful readings, in
                                         ///< robust deviations
 constexpr double bend_sigma = 0.25;     ///< of a reading: a smaller nonlinearity is ignored
@@ -89,11 +90,27 @@ void leave_out_spoiled(const Prepared& p, Searched& s, Round& round, KeySearch& 
     round = std::move(fewer);
 }
 
+/// Takes readings in again that were set aside beside the set-up alone, and fit the model: they
+/// were far from what it leaves out. True if there are any.
+bool take_in_again(const Prepared& p, const Eigen::VectorXd& left_mm, const Searched& s,
+                   Round& round) {
+    bool any = false;
+    for (std::size_t i = 0; i < round.used.size(); ++i) {
+        const auto row = static_cast<Eigen::Index>(i);
+        const double noise = p.base.sigma_mm(row) * s.model.variances.nu *
+                             round.noise.model.of(p.replay.contact(i).device).scale;
+        if (round.used[i] || std::abs(left_mm(row)) > fits_within * noise) continue;
+        round.used[i] = any = true;
+        round.sigma_mm(row) = p.base.sigma_mm(row);
+    }
+    return any;
+}
+
 /// Applies what the first model reveals about the round: outliers, other noise, nonlinear readings.
 /// False: no further search is needed.
 bool corrected(Prepared& p, Searched& s, Round& round) {
     const Eigen::VectorXd left = rest_of(p, s.design, s.model);
-    bool changed = false;
+    bool changed = !s.model.members.empty() && take_in_again(p, left, s, round);
     const Sizes sizes =
         sizes_of(s.design, s.model, 1.0, std::vector<bool>(s.model.members.size(), false));
     const auto wild = wild_readings(sizes.remainder.head(left.size()), round.used);

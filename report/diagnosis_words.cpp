@@ -65,6 +65,11 @@ std::string gap_words(const diagnosis::Diagnosis& d) {
                        size_words(d, d.noise_um), to_string(d.noise.source));
 }
 
+/// Where the gap is nothing but the readings that were set aside.
+std::string spoiled_words(const diagnosis::Diagnosis& d) {
+    return fmt::format("{} of {} readings fit nothing and were set aside", d.outliers, d.readings);
+}
+
 std::string shrink_words(const diagnosis::Diagnosis& d) {
     return fmt::format(
         "With that in the simulation the gap beyond noise shrinks by {} % ({} to {} %) "
@@ -91,6 +96,10 @@ std::string size_words(const diagnosis::Diagnosis& d, double size) {
 
 std::string cause_name(const diagnosis::Cause& cause) {
     return cause.since.empty() ? cause.effect : cause.effect + " since " + cause.since;
+}
+
+bool is_only_spoiled(const diagnosis::Diagnosis& d) {
+    return d.verdict == diagnosis::Verdict::unexplained && d.outliers > 0 && d.excess_um <= 0.0;
 }
 
 const char* rivals_words(const diagnosis::Cause& cause) {
@@ -158,6 +167,9 @@ std::string verdict_sentence(const diagnosis::Diagnosis& d) {
         case diagnosis::Verdict::partly_explained:
             return fmt::format("The gap is explained in part: {}.", size);
         case diagnosis::Verdict::unexplained:
+            if (is_only_spoiled(d))
+                return fmt::format("{}; the others show no gap beyond noise: {}.", spoiled_words(d),
+                                   size);
             return fmt::format("There is a gap that the catalogue does not explain: {}.", size);
     }
     return size;
@@ -168,6 +180,10 @@ std::string answer(const diagnosis::Diagnosis& d) {
         return fmt::format(
             "No gap. Machine and simulation differ by {} rms, and noise alone makes {}.",
             size_words(d, d.rms_um), size_words(d, d.noise_um));
+    if (is_only_spoiled(d))
+        return fmt::format(
+            "{}. The others differ from the simulation by {} rms, and noise alone makes {}.",
+            spoiled_words(d), size_words(d, d.rms_um), size_words(d, d.noise_um));
     const std::string size =
         fmt::format("Machine and simulation differ by {} rms; noise alone would make {}. ",
                     size_words(d, d.rms_um), size_words(d, d.noise_um));

@@ -19,6 +19,10 @@ std::string main_size(const diagnosis::Cause& cause);
 /// A size that is named _um: "12.3 µm", or in µrad where all readings are angles.
 std::string size_words(const diagnosis::Diagnosis& d, double size);
 std::string cause_name(const diagnosis::Cause& cause);
+/// True where the gap is nothing but the readings that were set aside: no cause explains or leaves
+/// anything of the others.
+bool is_only_spoiled(const diagnosis::Diagnosis& diagnosis);
+
 /// How a cause stands to its rivals: "cannot be told apart here from", or what an improbable one
 /// is.
 const char* rivals_words(const diagnosis::Cause& cause);

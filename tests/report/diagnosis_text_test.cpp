@@ -5,6 +5,8 @@
 #include <limits>
 #include <sstream>
 
+#include "report/diagnosis_words.h"
+
 namespace {
 
 using namespace trunnion;
@@ -55,6 +57,35 @@ TEST_CASE("no line of a diagnosis is longer than 90 places") {
         INFO(line);
         CHECK(line.size() <= 90);
     }
+}
+
+TEST_CASE("where only readings that were set aside are wrong, no text speaks of another gap") {
+    diagnosis::Diagnosis d;
+    d.verdict = diagnosis::Verdict::unexplained;
+    d.readings = 48;
+    d.outliers = 6;
+    d.rms_um = 0.9;
+    d.noise_um = 1.0;
+    diagnosis::Cause unknown;
+    unknown.effect = "unknown";
+    unknown.known = false;
+    d.causes.push_back(unknown);
+    const std::string text = report::diagnosis_text(d);
+    CHECK_THAT(text, Catch::Contains("6 of 48 readings fit nothing and were set aside"));
+    CHECK_THAT(text, Catch::Contains("the others show no gap"));
+    CHECK_THAT(text, !Catch::Contains("catalogue does not explain"));
+    CHECK_THAT(text, !Catch::Contains("after:"));
+    CHECK_THAT(report::answer(d), Catch::Contains("6 of 48 readings fit nothing"));
+    d.excess_um = 5.0;
+    CHECK_THAT(report::diagnosis_text(d), Catch::Contains("catalogue does not explain"));
+}
+
+TEST_CASE("a cause that is no better alone has no shrink of its own") {
+    diagnosis::Diagnosis d = with_parameters({});
+    d.causes.front().heldout.shrink = -1.64;
+    CHECK_THAT(report::diagnosis_text(d), Catch::Contains("no better by this alone"));
+    d.causes.front().heldout.shrink = 0.5;
+    CHECK_THAT(report::diagnosis_text(d), Catch::Contains("shrinks by 50 %"));
 }
 
 TEST_CASE("a verdict says where it holds, and does not name for sure what is not") {
