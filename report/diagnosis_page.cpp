@@ -164,6 +164,9 @@ std::string free_form_section(const diagnosis::Cause& cause) {
 
 std::string cause_section(const diagnosis::Cause& cause) {
     if (!cause.points.empty()) return free_form_section(cause);
+    if (!cause.known)
+        return fmt::format("<h3>{}</h3>\n<p>{}.</p>\n", escape_xml(cause.effect),
+                           escape_xml(cause.what));
     if (cause.parameters.empty()) return "";
     std::string text = fmt::format(
         "<h3>{}</h3>\n<p>{}. <b>Usual cause:</b> {}. <b>What to do:</b> "

@@ -57,6 +57,22 @@ TEST_CASE("values stand in the units of the shop, digits as sure as sigma") {
     CHECK(report::main_size(d.causes[0]) == "gap 81.23 ± 0.90 µrad");
 }
 
+TEST_CASE("what no cause explains has its words on the page, no empty section") {
+    diagnosis::Diagnosis d = one_cause();
+    d.verdict = diagnosis::Verdict::unexplained;
+    d.causes.front() = {};
+    d.causes.front().effect = "unknown";
+    d.causes.front().known = false;
+    d.causes.front().what = "A gap with structure: it comes and goes with time (along <Az>)";
+    const std::string html = report::diagnosis_page(d, "r.csv").body_html;
+    CHECK_THAT(html, Catch::Contains("comes and goes with time (along &lt;Az&gt;)."));
+    d.outliers = 2;
+    d.excess_um = 0.0;
+    const std::string spoiled = report::diagnosis_page(d, "r.csv").body_html;
+    CHECK_THAT(spoiled, Catch::Contains("<h3>unknown</h3>"));
+    CHECK_THAT(spoiled, !Catch::Contains("How far the gap shrinks"));
+}
+
 TEST_CASE("rivals are said of the cause that has them") {
     diagnosis::Diagnosis d = one_cause();
     CHECK_THAT(report::verdict_sentence(d), Catch::Contains("cannot tell C.backlash from its"));
