@@ -77,14 +77,14 @@ void leave_out_spoiled(const Prepared& p, Searched& s, Round& round, KeySearch& 
     const DoubtfulReadings doubtful = doubtful_readings(p, round.used);
     if (doubtful.rows.empty()) return;
     const records::Device device = p.replay.contact(doubtful.rows.front()).device;
-    const double left = s.model.variances.nu * round.noise.model.of(device).scale;
+    const double scale = round.noise.model.of(device).scale, left = s.model.variances.nu * scale;
     const auto is_free = [&](std::size_t m) { return s.design.group(m).kind == GroupKind::table; };
     const bool free = std::any_of(s.model.members.begin(), s.model.members.end(), is_free);
     if (!free && left < explained_left * doubtful.usual) return;  // a free form follows anything
     Round fewer = round;
     leave_out(p, doubtful.rows, fewer);
     Searched rest = search_of(p, fewer, keys, nullptr, go_on);
-    const double spoiled = likelihood_of_spoiled(doubtful, round.used);
+    const double spoiled = likelihood_of_spoiled(doubtful, round.used, scale);
     if (likelihood_of(rest) + spoiled < likelihood_of(s) + rules::least_evidence) return;
     s = std::move(rest);
     round = std::move(fewer);

@@ -223,20 +223,6 @@ class DriverList {
         }
     }
 
-    /// True when an axis went one way only, never back.
-    bool is_one_sweep() const {
-        return std::any_of(table_.axes.begin(), table_.axes.end(), [this](Axis axis) {
-            bool up = false, down = false;
-            for (std::size_t i = 1; i < n(); ++i) {
-                const double step =
-                    replay_.sample(i).position[axis] - replay_.sample(i - 1).position[axis];
-                up = up || step > 0.0;
-                down = down || step < 0.0;
-            }
-            return up != down;
-        });
-    }
-
     void clocks() {
         double start = 1e300, end = -1e300, cold = 1e300, warm = -1e300;
         for (std::size_t i = 0; i < n(); ++i) {
@@ -248,7 +234,7 @@ class DriverList {
         const RowFunction t = [this](std::size_t i) { return replay_.sample(i).time_s; };
         // Without a clock, in one sweep, the order of the readings is the position of the axis.
         const bool told = records::has_times(table_);
-        if (end - start > 60.0 && (told || !is_one_sweep())) {
+        if (end - start > 60.0 && (told || !is_one_sweep(replay_, table_.axes))) {
             auto functions = without_mean(smooth(t, start, end, false, 6));
             add("time", "machine frame",
                 told ? "drifts with time" : "changes in the order of the readings", functions,

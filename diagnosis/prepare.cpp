@@ -19,6 +19,19 @@ constexpr std::size_t few_poses = 25;
 
 }  // namespace
 
+bool is_one_sweep(const emulator::Replay& replay, const std::vector<Axis>& axes) {
+    return std::any_of(axes.begin(), axes.end(), [&](Axis axis) {
+        bool up = false, down = false;
+        for (std::size_t i = 1; i < replay.size(); ++i) {
+            const double step =
+                replay.sample(i).position[axis] - replay.sample(i - 1).position[axis];
+            up = up || step > 0.0;
+            down = down || step < 0.0;
+        }
+        return up != down;
+    });
+}
+
 Folds make_folds(const std::vector<NoiseBlock>& blocks, std::size_t rows) {
     Folds folds;
     folds.group.assign(rows, 0);

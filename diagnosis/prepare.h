@@ -36,6 +36,9 @@ struct Prepared {
 
 /// Throws InputError for too few readings, or values of another machine.
 Prepared prepare(const setup::Setup& setup, const records::ReadingTable& table);
+/// True when an axis went one way only, never back: time is then the position.
+bool is_one_sweep(const emulator::Replay& replay, const std::vector<Axis>& axes);
+
 /// Subtracts from the readings of each laser or autocollimator test and session their mean,
 /// weighted by sigma: the zero of a test is free.
 void free_zeros(const emulator::Replay& replay, const Eigen::VectorXd& sigma_mm,

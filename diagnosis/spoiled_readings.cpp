@@ -92,8 +92,9 @@ DoubtfulReadings doubtful_readings(const Prepared& prepared, const std::vector<b
     return doubtful;
 }
 
-double likelihood_of_spoiled(const DoubtfulReadings& doubtful, const std::vector<bool>& used) {
-    const double width = 3.0 * doubtful.largest;
+double likelihood_of_spoiled(const DoubtfulReadings& doubtful, const std::vector<bool>& used,
+                             double scale) {
+    const double width = 3.0 * doubtful.largest / scale;
     const auto all = static_cast<double>(std::count(used.begin(), used.end(), true)),
                spoiled = static_cast<double>(doubtful.rows.size());
     // The density of the other readings is without its factor (2 pi)^-1/2, so this one is, too.

@@ -18,7 +18,9 @@ struct DoubtfulReadings {
 DoubtfulReadings doubtful_readings(const Prepared& prepared, const std::vector<bool>& used);
 
 /// Log likelihood of doubtful readings as spoiled ones, each anywhere in their spread, and of the
-/// other rows of `used` as good ones. To be added to the likelihood of a model of the others.
-double likelihood_of_spoiled(const DoubtfulReadings& doubtful, const std::vector<bool>& used);
+/// other rows of `used` as good ones. To be added to the likelihood of a model of the others, whose
+/// rows are in units of `scale` sigma (DeviceNoise::scale).
+double likelihood_of_spoiled(const DoubtfulReadings& doubtful, const std::vector<bool>& used,
+                             double scale);
 
 }  // namespace trunnion::diagnosis

@@ -27,20 +27,6 @@ bool have_one_direction(const emulator::Replay& replay) {
     return true;
 }
 
-/// True when every axis that moves comes back: in one sweep time is the position.
-bool comes_back(const Prepared& p) {
-    return std::all_of(p.table.axes.begin(), p.table.axes.end(), [&](Axis axis) {
-        bool up = false, down = false;
-        for (std::size_t i = 1; i < p.replay.size(); ++i) {
-            const double step =
-                p.replay.sample(i).position[axis] - p.replay.sample(i - 1).position[axis];
-            up = up || step > 0.0;
-            down = down || step < 0.0;
-        }
-        return up == down;
-    });
-}
-
 /// Smooth courses of time without their mean: rows x columns.
 Eigen::MatrixXd courses_of_time(const Prepared& p) {
     std::vector<double> times;
@@ -79,7 +65,8 @@ Eigen::VectorXd response_to(const Prepared& p, Axis axis) {
 
 void add_wandering_groups(Design& design, const Prepared& prepared, const Whitener& whitener,
                           Eigen::Index owned) {
-    if (!have_one_direction(prepared.replay) || !comes_back(prepared)) return;
+    if (!have_one_direction(prepared.replay) || is_one_sweep(prepared.replay, prepared.table.axes))
+        return;
     const Eigen::MatrixXd courses = courses_of_time(prepared);
     if (courses.cols() == 0) return;
     const bool told = records::has_times(prepared.table);
