@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "diagnosis/cause_evidence.h"
 #include "diagnosis/contenders.h"
 #include "diagnosis/offers.h"
 #include "diagnosis/rules.h"
@@ -12,8 +13,6 @@
 namespace trunnion::diagnosis {
 namespace {
 
-constexpr std::size_t rivals_tried = 20;
-constexpr std::size_t replacements_tried = 3;  ///< of each other cause
 constexpr double doubtful = 0.4;  ///< probability at most of causes that cancel each other
 /// Probability at most where the search was ended before a contender was looked for.
 constexpr double unchallenged_most = 0.8;
@@ -21,13 +20,6 @@ constexpr double unchallenged_most = 0.8;
 /// Probability at most of what that many blocks of readings saw (Laplace's rule of succession).
 double seen_by(double blocks) {
     return (blocks + 1.0) / (blocks + 2.0);
-}
-
-double log_sum(const std::vector<double>& values) {
-    const double most = *std::max_element(values.begin(), values.end());
-    double sum = 0.0;
-    for (const double v : values) sum += std::exp(v - most);
-    return most + std::log(sum);
 }
 
 /// Tempering exponent: compares block scores of a member with those expected from noise. 1 when
@@ -49,119 +41,21 @@ double temper(const Sizes& sizes, std::size_t k, const Folds& folds) {
     return 1.0 / std::max(1.0, expected > 0.0 ? square / expected : 1.0);
 }
 
-bool are_forms_of_one_axis(const ColumnGroup& a, const ColumnGroup& b) {
-    return a.kind == GroupKind::table && b.kind == GroupKind::table &&
-           are_kindred(a.table, b.table);
-}
-
-/// True when another free form of the same axis makes the family of a free form doubtful. What an
-/// angular error does on the only line that was measured is positioning and straightness by their
-/// definition (ISO 230-1), so an angular form makes only angular forms doubtful.
-bool makes_doubtful(const ColumnGroup& own, const ColumnGroup& other) {
-    return are_forms_of_one_axis(own, other) &&
-           (own.table.motion == effects::EffectKind::angular ||
-            other.table.motion != effects::EffectKind::angular);
-}
-
-double nats_of(const Design& design, const Offer& o) {
-    return o.gain.best + design.group(o.group).log_prior;
-}
-
-/// Logarithms of the posterior weights of models, relative to the chosen one: each with its own
-/// noise and averaged over the sizes of its members.
-class Weights {
-  public:
-    Weights(const Searching& search, const Model& chosen)
-        : search_(search), chosen_(evidence(search.design, chosen)) {}
-
-    /// `lost`: nats that the model loses with the noise of the chosen one. With its own noise it
-    /// loses less, but at least as much as with noise that is free; if that is too much, its
-    /// weight is 0.
-    void add(const Model& model, double lost, std::vector<double>& list) const {
-        const double freedom = std::max(1.0, search_.design.freedom());
-        if (lost > 0.0 && 0.5 * freedom * std::log1p(2.0 * lost / freedom) > most_lost) return;
-        list.push_back(evidence(search_.design, tuned(search_.design, search_.setting, model, 1)) -
-                       chosen_);
-    }
-
-  private:
-    static constexpr double most_lost = 12.0;
-    const Searching& search_;
-    double chosen_;
-};
-
-/// Adds models without member k in which another cause is replaced as well: one effect may do what
-/// two are claimed for. None for large models.
-void weigh_one_for_two(const Searching& search, const Model& model, const Offer& held,
-                       const Weights& weights, std::vector<double>& list) {
-    Design& design = search.design;
-    if (model.members.size() > pairs_up_to) return;
-    const auto k = std::find(model.members.begin(), model.members.end(), held.group);
-    const Model rest = without(model, static_cast<std::size_t>(k - model.members.begin()));
-    const std::vector<Offer> worth = worth_of_members(design, rest);
-    for (std::size_t m = 0; m < rest.members.size(); ++m) {
-        const std::string& replaced = design.group(rest.members[m]).name;
-        if (!is_cause(design.group(rest.members[m]).kind)) continue;
-        const Model none = without(rest, m);
-        std::size_t count = 0;
-        for (const Offer& o : offers(design, none, is_cause)) {
-            const std::string& name = design.group(o.group).name;
-            if (name == replaced || name == design.group(held.group).name) continue;
-            if (count++ == replacements_tried) break;
-            weights.add(with(none, o),
-                        nats_of(design, held) + nats_of(design, worth[m]) - nats_of(design, o),
-                        list);
-        }
-    }
-}
-
-/// Probability by the evidence: of a cause, and of the cause or a free form that makes it doubtful.
-struct EvidenceOf {
-    double cause, axis;
-};
-
-/// Posterior weight of the models that contain member k, relative to: the chosen model, the model
-/// without it, those with it replaced, and those with another one in place of two.
-EvidenceOf evidence_of(const Searching& search, const Model& model, const Offer& held,
-                       const std::vector<Offer>& others, double zeta) {
-    const Design& design = search.design;
-    const ColumnGroup& cause = design.group(held.group);
-    const Weights weights(search, model);
-    const auto k = std::find(model.members.begin(), model.members.end(), held.group);
-    const Model rest = without(model, static_cast<std::size_t>(k - model.members.begin()));
-    const double own = nats_of(design, held);
-    std::vector<double> same{0.0}, kindred, other;
-    weights.add(rest, own, other);
-    std::size_t count = 0;
-    for (const Offer& o : others) {
-        if (o.group == held.group) continue;
-        if (count++ == rivals_tried) break;
-        const ColumnGroup& group = design.group(o.group);
-        const bool again = group.name == cause.name;
-        weights.add(with(rest, o), own - nats_of(design, o),
-                    again                          ? same
-                    : makes_doubtful(cause, group) ? kindred
-                                                   : other);
-    }
-    weigh_one_for_two(search, model, held, weights, other);
-    for (auto* list : {&same, &kindred, &other})
-        for (double& w : *list) w *= zeta;
-    const double of_same = log_sum(same);
-    kindred.push_back(of_same);
-    const double of_axis = log_sum(kindred);
-    other.push_back(of_axis);
-    const double all = log_sum(other);
-    // A search that was ended early may leave variances at which no likelihood can be computed.
-    if (!std::isfinite(all)) return {0.0, 0.0};
-    return {std::exp(of_same - all), std::exp(of_axis - all)};
-}
-
 /// A jump of the machine stands against a move of an artefact and against a drift, which are
 /// courses of time, too: beside any other effect it is one more time that was picked to fit.
 bool may_be_instead(const ColumnGroup& own, const ColumnGroup& other) {
     return !other.machine_jump ||
            (own.effect && (own.effect->kind == effects::EffectKind::artefact_moved ||
                            own.effect->kind == effects::EffectKind::thermal_drift));
+}
+
+void name_rival(const Design& design, std::size_t group, Claim& claim) {
+    const std::string& name = design.group(group).name;
+    if (name == claim.name ||
+        std::find(claim.rivals.begin(), claim.rivals.end(), name) != claim.rivals.end())
+        return;
+    claim.rivals.push_back(name);
+    claim.rival_groups.push_back(group);
 }
 
 /// Other causes that explain nearly as much in place of the member.
@@ -181,27 +75,28 @@ void name_rivals(const Design& design, const Offer& held, const std::vector<Offe
         found.emplace_back(held.gain.best + own.log_prior - o.gain.best - group.log_prior, o.group);
     }
     std::sort(found.begin(), found.end());
-    for (const auto& [worse, k] : found) {
-        const std::string& name = design.group(k).name;
-        if (std::find(claim.rivals.begin(), claim.rivals.end(), name) != claim.rivals.end())
-            continue;
-        claim.rivals.push_back(name);
-        claim.rival_groups.push_back(k);
-    }
+    for (const auto& [worse, k] : found) name_rival(design, k, claim);
+}
+
+/// The best pair of effects that explains nearly as much: of angles that are seen through one arm
+/// the scale and the squareness.
+void name_pair(const Searching& search, const Model& model, const std::vector<TwoInstead>& pairs,
+               Claim& claim) {
+    if (pairs.empty()) return;
+    const TwoInstead& best = pairs.front();
+    if (evidence(search.design, best.model) + best.known <
+        evidence(search.design, model) - rules::least_evidence)
+        return;
+    for (const std::size_t group : {best.first, best.second})
+        name_rival(search.design, group, claim);
 }
 
 /// What the best model without the member has in its place, where that leaves the member unsure.
 void name_contender(Design& design, const Model& model, const Contender& contender,
                     const Eigen::VectorXd& part, Claim& claim) {
     if (probability_against(contender) >= rules::sure) return;
-    for (const std::size_t k : in_place_of(design, model, contender.model, part)) {
-        const std::string& name = design.group(k).name;
-        if (name == claim.name ||
-            std::find(claim.rivals.begin(), claim.rivals.end(), name) != claim.rivals.end())
-            continue;
-        claim.rivals.push_back(name);
-        claim.rival_groups.push_back(k);
-    }
+    for (const std::size_t k : in_place_of(design, model, contender.model, part))
+        name_rival(design, k, claim);
 }
 
 /// A free form of which the readings do not tell the family (seen through one tool length, an
@@ -365,9 +260,10 @@ std::vector<Claim> claims_of(const Searching& search, const Model& model, const 
         const double seen =
             std::min({estimation::student_probability(heldout.support[k].saving.t, blocks - 1.0),
                       seen_by(blocks), std::clamp(heldout.explained, 0.0, 1.0)});
+        const std::vector<Offer> one = sharing(design, group, instead, others);
+        const std::vector<TwoInstead> two = two_instead(design, search.setting, model, k);
         const EvidenceOf told =
-            evidence_of(search, model, worth[k], sharing(design, group, instead, others),
-                        temper(sizes, k, heldout.folds));
+            evidence_of(search, model, worth[k], {one, two}, temper(sizes, k, heldout.folds));
         // What the evidence leaves open between forms of one axis is open in all that is seen, too.
         const double seen_axis = std::min(seen, told.axis);
         claim.probability = std::min(probability_against(contender),
@@ -375,6 +271,7 @@ std::vector<Claim> claims_of(const Searching& search, const Model& model, const 
         if (works_against_others(design, model, sizes, k))
             claim.probability = std::min(claim.probability, doubtful);
         name_rivals(design, worth[k], instead, claim);
+        name_pair(search, model, two, claim);
         name_contender(design, model, contender, sizes.parts.col(static_cast<Eigen::Index>(k)),
                        claim);
         name_axis(design, heldout.found, seen_axis, claim);

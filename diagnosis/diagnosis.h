@@ -83,6 +83,7 @@ struct Diagnosis {
     Verdict verdict = Verdict::no_gap;
     NoiseModel noise;
     Finite rms_um = 0.0, noise_um = 0.0, excess_um = 0.0, p_value = 1.0;
+    bool only_scatter = false;  ///< the gap is nothing but repeats that differ more than is stated
     std::vector<DriverShare> where;
     std::vector<Cause> causes;
     Finite after_rms_um = 0.0, unexplained_share = 0.0;

@@ -328,6 +328,9 @@ Folds path_folds(const std::vector<NoiseBlock>& blocks, const emulator::Replay& 
     for (const NoiseBlock& block : blocks) {
         const auto own = static_cast<int>(folds.fold.size());
         int fold = own % Folds::count;
+        // The points of a plate come row by row: every fifth may be one line of it.
+        if (block.device == records::Device::point)
+            fold = (own + 2 * (own / Folds::count)) % Folds::count;
         if (block.device == records::Device::ballbar) {
             std::vector<long> ends;
             for (const Axis axis : axes) {

@@ -240,7 +240,8 @@ void remove_shift(const emulator::Replay& replay, std::vector<Stretch>& stretche
 
 }  // namespace
 
-/// Robust size of the differences, at least 1.
+/// Robust size of the differences, at least 1. What is stated of a device is its resolution or its
+/// accuracy; what repeats differ by is known from them alone.
 double typical_size(const std::vector<Stretch>& stretches) {
     std::vector<double> all;
     for (const Stretch& s : stretches) all.insert(all.end(), s.value.begin(), s.value.end());
@@ -281,8 +282,7 @@ NoiseModel noise_from_repeats(const RepeatedRows& rows, const Eigen::VectorXd& r
             continue;
         }
         if (device != records::Device::ballbar) remove_shift(replay, list);
-        const double usual =
-            start.source == NoiseSource::assumed ? typical_size(list) : 1.0;  // of a difference
+        const double usual = typical_size(list);
         for (Stretch& s : list)  // a few outliers must not determine the noise
             s.value = s.value.cwiseMax(-6.0 * usual).cwiseMin(6.0 * usual);
         noise.of(device) = estimate(replay, device, list, 0.05 * usual, 4.0 * usual);

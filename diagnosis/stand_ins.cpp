@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "diagnosis/rules.h"
+
 namespace trunnion::diagnosis {
 namespace {
 
@@ -40,15 +42,10 @@ std::vector<Candidate> candidates(const Design& design, const Model& rest,
 estimation::GroupInformation left_of(Design& design, const Model& rest,
                                      const std::vector<Candidate>& list) {
     std::vector<std::size_t> groups;
-    std::vector<Eigen::Index> features;
-    for (const Candidate& c : list) {
-        const std::vector<Eigen::Index>& own = design.group(c.group).features;
-        groups.push_back(c.group);
-        features.insert(features.end(), own.begin(), own.end());
-    }
-    const estimation::GroupInformation all = design.of(features);
+    for (const Candidate& c : list) groups.push_back(c.group);
+    const estimation::GroupEquations all = design.equations(groups);
     const estimation::GivenMembers given(design.equations(rest.members), rest.variances);
-    return given.leave(design.cross(rest.members, groups), all.information, all.product);
+    return given.leave(design.cross(rest.members, groups), all.gram, all.product);
 }
 
 Pair pair_of(const Design& design, const estimation::GroupInformation& all, const Candidate& a,
@@ -70,7 +67,9 @@ std::vector<Pair> best_pairs(Design& design, const Model& rest, const ColumnGrou
     const estimation::GroupInformation all = left_of(design, rest, list);
     for (std::size_t b = 1; b < list.size(); ++b)
         for (std::size_t a = 0; a < b; ++a) {
-            if (same_cause(design.group(list[a].group), design.group(list[b].group))) continue;
+            if (list[a].count + list[b].count > held.columns() ||
+                same_cause(design.group(list[a].group), design.group(list[b].group)))
+                continue;
             best.push_back(pair_of(design, all, list[a], list[b]));
         }
     std::stable_sort(best.begin(), best.end(),
@@ -81,20 +80,35 @@ std::vector<Pair> best_pairs(Design& design, const Model& rest, const ColumnGrou
 
 }  // namespace
 
+std::vector<TwoInstead> two_instead(Design& design, const SearchSetting& setting,
+                                    const Model& model, std::size_t position) {
+    const ColumnGroup held = design.group(model.members[position]);
+    std::vector<TwoInstead> list;
+    const bool angles = held.effect && held.effect->kind == effects::EffectKind::angular;
+    const double known = angles ? rules::by_an_arm - rules::effect_prior : 0.0;
+    if (held.kind != GroupKind::textbook || held.columns() < 2 ||
+        model.members.size() > pairs_up_to)
+        return list;
+    const Model rest = tuned(design, setting, without(model, position), 1);
+    for (const Pair& pair : best_pairs(design, rest, held)) {
+        Model trial = rest;
+        for (const std::size_t group : {pair.first, pair.second}) {
+            trial.members.push_back(group);
+            trial.variances.tau.push_back(pair.tau);
+        }
+        list.push_back(
+            {pair.first, pair.second, tuned(design, setting, std::move(trial), 2), known});
+    }
+    return list;
+}
+
 Model without_stand_ins(Design& design, const SearchSetting& setting, Model model) {
     if (model.members.size() > pairs_up_to) return model;
     for (std::size_t position = 0; position < model.members.size() && !setting.stopped();
          ++position) {
-        const ColumnGroup held = design.group(model.members[position]);
-        if (held.kind != GroupKind::textbook || held.columns() <= few) continue;
-        const Model rest = tuned(design, setting, without(model, position), 1);
-        for (const Pair& pair : best_pairs(design, rest, held)) {
-            Model trial = rest;
-            for (const std::size_t group : {pair.first, pair.second}) {
-                trial.members.push_back(group);
-                trial.variances.tau.push_back(pair.tau);
-            }
-            trial = pruned(design, setting, tuned(design, setting, std::move(trial), 2));
+        if (design.group(model.members[position]).columns() <= few) continue;
+        for (TwoInstead& pair : two_instead(design, setting, model, position)) {
+            Model trial = pruned(design, setting, std::move(pair.model));
             if (!(evidence(design, trial) >= evidence(design, model) + better)) continue;
             model = std::move(trial);
             break;

@@ -73,6 +73,14 @@ Cause unknown_cause(const Outcome& f, const Diagnosis& d) {
             "{} of {} readings fit nothing and were set aside: they are spoiled, or the machine "
             "differs there. Take them again",
             set_aside(f), f.used.size());
+    } else if (f.judgement.only_scatter && places.empty()) {
+        const auto count = static_cast<double>(f.used.size() - set_aside(f));
+        cause.probability = std::max(cause.probability.value(), (count + 1.0) / (count + 2.0));
+        cause.what = fmt::format(
+            "Repeated readings differ {:.0f} times more than is stated of the device, and nothing "
+            "beyond that is seen: the machine does not come back to the same place, or something "
+            "disturbs the readings",
+            f.judgement.scatter);
     } else if (places.empty() && cause.probability < 0.5)
         cause.what = "What left-out readings do not confirm, and the others leave open";
     else if (cause.rivals.empty())

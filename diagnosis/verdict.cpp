@@ -137,6 +137,15 @@ double part_beside_zeros(const Design& design, const Model& model, const LeftOut
     return excess > 0.0 ? (before - after) / excess : 0.0;
 }
 
+/// Noise that repeats show, relative to what is stated: the largest of the devices; 1 where nothing
+/// is stated or nothing repeats.
+double scatter_of(const Prepared& p, const NoiseModel& noise) {
+    double most = 1.0;
+    if (noise.source != NoiseSource::repeats || !p.base.noise_given) return most;
+    for (const NoiseBlock& block : p.blocks) most = std::max(most, noise.of(block.device).scale);
+    return most;
+}
+
 }  // namespace
 
 Judgement judged(FoldColumns& rows, const Prepared& prepared, const Model& model,
@@ -188,6 +197,9 @@ Judgement judged(FoldColumns& rows, const Prepared& prepared, const Model& model
     const auto count = static_cast<double>(std::count(used.begin(), used.end(), false));
     const bool spoiled = count > rules::most_outliers * static_cast<double>(used.size());
     j.gap = spoiled || beyond_noise || is_gap(design, model, j, sizes, saving_of(before, after));
+    j.scatter = scatter_of(prepared, noise.model);
+    j.only_scatter = !j.gap && j.scatter > rules::most_scatter;
+    j.gap = j.gap || j.only_scatter;
     return j;
 }
 

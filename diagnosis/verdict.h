@@ -24,6 +24,8 @@ struct Judgement {
     double beside_zeros = 0.0;         ///< the same with all zeros predicted both times
     double evidence = 0.0;             ///< of the model beside the scatter of zeros, nats
     bool gap = false;
+    double scatter = 1.0;       ///< of repeats, relative to the noise that is stated of the devices
+    bool only_scatter = false;  ///< the gap is nothing but that
     bool between_places = true;
     std::vector<bool> large;         ///< members that are large zeros
     std::vector<bool> interpolates;  ///< members: tables valid between their positions, ripples of

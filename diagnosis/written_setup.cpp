@@ -138,8 +138,32 @@ std::vector<bool> predicting_elsewhere(const Outcome& f, const Folds& paths) {
     }
 }
 
+/// The model with the textbook forms of the tables that were found: a few numbers may hold where
+/// the curve does not.
+Model with_textbook_forms(const Outcome& f, Model model) {
+    for (const std::size_t m : f.model.members) {
+        const ColumnGroup& table = f.design.group(m);
+        if (table.kind != GroupKind::table) continue;
+        for (std::size_t k = 0; k < f.design.groups().size(); ++k) {
+            const Design::Entry& entry = f.design.groups()[k];
+            if (entry.group.kind != GroupKind::textbook || entry.group.name != table.name ||
+                entry.group.is_change() || entry.hidden || !entry.visible() ||
+                std::count(model.members.begin(), model.members.end(), k) > 0)
+                continue;
+            model.members.push_back(k);
+            model.variances.tau.push_back(1.0);
+        }
+    }
+    return model;
+}
+
+struct Candidate {
+    Model model;
+    bool found = true;  ///< false: with forms that the search did not choose
+};
+
 /// The found model without the parts that do not predict, the most complete one first.
-std::vector<Model> candidates_of(const Outcome& f, const Folds& paths) {
+std::vector<Candidate> candidates_of(const Outcome& f, const Folds& paths) {
     const std::vector<bool> kept = predicting_elsewhere(f, paths);
     const auto all = [&](GroupKind, std::size_t m) { return bool{kept[position_of(f, m)]}; };
     const auto causes = [&](GroupKind k, std::size_t m) {
@@ -151,17 +175,19 @@ std::vector<Model> candidates_of(const Outcome& f, const Folds& paths) {
     const auto named_causes = [&](GroupKind k, std::size_t m) {
         return named(k, m) && k != GroupKind::driver;
     };
-    std::vector<Model> list;
-    for (const TakesMember& takes :
-         {TakesMember(all), TakesMember(causes), TakesMember(named), TakesMember(named_causes)}) {
-        Model model = only(f, f.model, takes);
+    std::vector<Candidate> list;
+    const auto add = [&](Model model, bool found) {
         if (std::any_of(list.begin(), list.end(),
-                        [&](const Model& m) { return m.members == model.members; }))
-            continue;
+                        [&](const Candidate& c) { return c.model.members == model.members; }))
+            return;
         if (model.members != f.model.members)
             model = tuned(f.design, f.setting, std::move(model), 2);
-        list.push_back(std::move(model));
-    }
+        list.push_back({std::move(model), found});
+    };
+    for (const TakesMember& takes :
+         {TakesMember(all), TakesMember(causes), TakesMember(named), TakesMember(named_causes)})
+        add(only(f, f.model, takes), true);
+    add(with_textbook_forms(f, only(f, f.model, named)), false);
     return list;
 }
 
@@ -219,6 +245,12 @@ bool is_good_for_most(const Outcome& f, const Eigen::VectorXd& before,
     return saved > 0.0;
 }
 
+/// True where left-out blocks confirm a candidate. What one block alone shows of an effect, the
+/// start of the only move of a log, makes the saving large, not doubtful.
+bool is_confirmed(const BlockLoss& before, const BlockLoss& loss) {
+    return std::max(saving_of(before, loss).t, steady_saving_of(before, loss).t) >= rules::least_t;
+}
+
 /// Takes the best candidate on left-out readings that holds on left-out paths, if there is one.
 void choose(const Outcome& f, const Folds& paths, Written& w) {
     const double rank = static_cast<double>(f.design.projection().rank());
@@ -230,12 +262,12 @@ void choose(const Outcome& f, const Folds& paths, Written& w) {
     };
     const Eigen::VectorXd alone_left = left(w.model);
     double least = alone.blocks;
-    for (Model& model : candidates_of(f, paths)) {
+    for (auto& [model, found] : candidates_of(f, paths)) {
         const BlockLoss loss = loss_of(f, model, f.prepared.folds);
-        if (loss.mean() >= least || saving_of(before, loss).t < rules::least_t) continue;
+        if (loss.mean() >= least || !is_confirmed(before, loss)) continue;
         if (!is_good_for_most(f, alone_left, left(model))) continue;
         if (!holds_elsewhere(f, model, paths, alone)) {
-            w.only_here = true;
+            w.only_here = w.only_here || (found && saving_of(before, loss).t >= rules::least_t);
             continue;
         }
         least = loss.mean();

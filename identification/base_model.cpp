@@ -263,6 +263,7 @@ RowNoise row_noise(const setup::Setup& setup, const records::ReadingTable& table
         noise.given = noise.given && of_row.given;
     }
     add_rounding(setup, table, replay, noise.sigma_mm);
+    add_rest_scatter(setup, table, replay, noise.sigma_mm);
     return noise;
 }
 

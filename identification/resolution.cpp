@@ -4,9 +4,11 @@
 #include <cmath>
 #include <map>
 #include <tuple>
+#include <utility>
 
 #include "base/units.h"
 #include "emulator/device_noise.h"
+#include "estimation/quantiles.h"
 
 namespace trunnion::identification {
 
@@ -61,7 +63,8 @@ void add_rounding(const setup::Setup& setup, const records::ReadingTable& table,
     std::map<Key, std::vector<std::size_t>> alike;
     for (std::size_t i = 0; i < replay.size(); ++i) {
         const records::Reading& row = table.rows[replay.table_row(i)];
-        if (row.value_mm && !emulator::device_noise(setup.model, row).given)
+        if (!row.value_mm || (row.sigma_mm && *row.sigma_mm > 0.0)) continue;
+        if (row.device == records::Device::axis || !emulator::device_noise(setup.model, row).given)
             alike[{row.device, row.feature, digits_of(row, replay.contact(i))}].push_back(i);
     }
     for (const auto& [of, rows] : alike) {
@@ -73,6 +76,41 @@ void add_rounding(const setup::Setup& setup, const records::ReadingTable& table,
         for (const std::size_t i : rows) {
             double& sigma = sigma_mm(static_cast<Eigen::Index>(i));
             sigma = std::max(sigma, angular ? rad_from_deg(spread) : spread);
+        }
+    }
+}
+
+void add_rest_scatter(const setup::Setup& setup, const records::ReadingTable& table,
+                      const emulator::Replay& replay, Eigen::VectorXd& sigma_mm) {
+    constexpr std::size_t fewest = 10;
+    constexpr double least_factor = 2.0;
+    struct Log {
+        std::vector<std::size_t> rows;
+        std::vector<double> differences;  ///< of successive rows at rest, of one row's size
+    };
+    std::map<std::pair<std::string, std::string>, Log> logs;  // of each test and axis
+    for (std::size_t i = 0; i < replay.size(); ++i) {
+        const records::Reading& row = table.rows[replay.table_row(i)];
+        if (row.device != records::Device::axis || !row.value_mm ||
+            emulator::device_noise(setup.model, row).given)
+            continue;
+        logs[{row.test, row.feature}].rows.push_back(i);
+    }
+    for (auto& [of, log] : logs) {
+        const auto at = [&](std::size_t k) -> const records::Reading& {
+            return table.rows[replay.table_row(log.rows[k])];
+        };
+        const auto commanded = [&](std::size_t k) {
+            return at(k).commanded[replay.contact(log.rows[k]).axis];
+        };
+        for (std::size_t k = 2; k < log.rows.size(); ++k)
+            if (commanded(k) == commanded(k - 1) && commanded(k) == commanded(k - 2))
+                log.differences.push_back((*at(k).value_mm - *at(k - 1).value_mm) / std::sqrt(2.0));
+        if (log.differences.size() < fewest) continue;
+        const double scatter = estimation::robust_deviation(log.differences);
+        for (const std::size_t i : log.rows) {
+            double& sigma = sigma_mm(static_cast<Eigen::Index>(i));
+            if (scatter >= least_factor * sigma) sigma = scatter;
         }
     }
 }

@@ -246,7 +246,7 @@ std::string small_print(const diagnosis::Diagnosis& d) {
 
 /// The effects, and the reduction of the gap by all of them together.
 std::string causes_section(const diagnosis::Diagnosis& d) {
-    if (d.causes.empty() || is_only_spoiled(d)) return {};
+    if (d.causes.empty() || is_only_spoiled(d) || d.only_scatter) return {};
     return section_html("Which effect",
                         figure_html(share_bars(d), "Part of the gap that is due to each cause") +
                             cause_table(d)) +

@@ -77,7 +77,7 @@ std::string diagnosis_text(const diagnosis::Diagnosis& d) {
     if (d.chosen_from > 0) text += fmt::format("  chosen evenly from {} readings\n", d.chosen_from);
     for (const diagnosis::DriverShare& w : d.where) text += fmt::format("  {}\n", w.text);
     for (const diagnosis::Cause& cause : d.causes) text += cause_text(d, cause);
-    if (!d.causes.empty() && !is_only_spoiled(d))
+    if (!d.causes.empty() && !is_only_spoiled(d) && !d.only_scatter)
         text += "\n" + paragraph(fmt::format("after: rms {}; of readings left out the causes "
                                              "explain {} %{}; with the "
                                              "written setup{} the gap shrinks by {} % ({} to "

@@ -170,6 +170,11 @@ std::string verdict_sentence(const diagnosis::Diagnosis& d) {
             if (is_only_spoiled(d))
                 return fmt::format("{}; the others show no gap beyond noise: {}.", spoiled_words(d),
                                    size);
+            if (d.only_scatter)
+                return fmt::format(
+                    "Repeated readings differ more than is stated; beyond that there is no gap: "
+                    "{}.",
+                    size);
             return fmt::format("There is a gap that the catalogue does not explain: {}.", size);
     }
     return size;
@@ -184,6 +189,11 @@ std::string answer(const diagnosis::Diagnosis& d) {
         return fmt::format(
             "{}. The others differ from the simulation by {} rms, and noise alone makes {}.",
             spoiled_words(d), size_words(d, d.rms_um), size_words(d, d.noise_um));
+    if (d.only_scatter)
+        return fmt::format(
+            "Repeated readings differ more than is stated of the device: {} rms. Beyond that "
+            "machine and simulation are alike.",
+            size_words(d, d.noise_um));
     const std::string size =
         fmt::format("Machine and simulation differ by {} rms; noise alone would make {}. ",
                     size_words(d, d.rms_um), size_words(d, d.noise_um));

@@ -88,10 +88,43 @@ TEST_CASE("a servo log of three digits: the sigma is that of the digits, and the
         }
     CHECK(tau_s == Approx(0.009).margin(3.0 * sigma_s));
     CHECK(sigma_s < 0.001);
-    // A stated noise is kept.
+    // What the setup states is the noise of the encoder: the file has no more digits for that.
     setup::Setup stated = setup;
     stated.model.noise_um["axis"] = 3.0;
+    CHECK(identification::row_noise(stated, table, replay).sigma_mm.minCoeff() ==
+          Approx(0.1 / std::sqrt(12.0)));
+    // What a row states is its own.
+    records::ReadingTable own = table;
+    for (records::Reading& row : own.rows) row.sigma_mm = 0.003;
+    CHECK(identification::row_noise(setup, own, replay).sigma_mm.maxCoeff() == 0.003);
+}
+
+TEST_CASE("a servo log scatters at rest more than usual: that is its noise", "[identification]") {
+    records::ReadingTable table = log();
+    std::uint64_t state = 1;
+    const auto even = [&] {  // -0.5 to 0.5
+        state = state * 6364136223846793005u + 1442695040888963407u;
+        return static_cast<double>(state >> 11) / 9007199254740992.0 - 0.5;
+    };
+    constexpr double spread_mm = 0.02;
+    for (records::Reading& row : table.rows) {
+        row.commanded[Axis::X] = row.index < 60 ? 100.0 : 100.0 + 0.05 * (row.index - 60);
+        double sum = 0.0;
+        for (int k = 0; k < 12; ++k) sum += even();  // nearly normal
+        row.value_mm = spread_mm * sum + (row.index < 60 ? 0.0 : 0.3);
+    }
+    const emulator::Replay replay(machine(), table);
+    const double sigma_mm = identification::row_noise(machine(), table, replay).sigma_mm(0);
+    CHECK(sigma_mm > 0.7 * spread_mm);
+    CHECK(sigma_mm < 1.4 * spread_mm);
+    CHECK(identification::row_noise(machine(), table, replay).sigma_mm.minCoeff() == sigma_mm);
+    // At rest without noise nothing is known of it; a stated noise is kept.
+    setup::Setup stated = machine();
+    stated.model.noise_um["axis"] = 3.0;
     CHECK(identification::row_noise(stated, table, replay).sigma_mm.maxCoeff() == 0.003);
+    for (records::Reading& row : table.rows)
+        if (row.index < 60) row.value_mm = 0.0;
+    CHECK(identification::row_noise(machine(), table, replay).sigma_mm.maxCoeff() == 0.001);
 }
 
 TEST_CASE("a log whose positions are mostly equal has their digits all the same",
