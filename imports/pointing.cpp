@@ -135,6 +135,7 @@ void import_sights(const TextTable& table, const ImportRequest& request, RowWrit
     result.summary.push_back(fmt::format(
         "{}: pointing of {}, {} lines, {} readings, {}; {}", table.path(), axes_words(log),
         table.size(), rows.count() - before, time.words(), table.dialect_words()));
+    time.note_unit(table, result.notes);
     if (missing > 0)
         result.notes.push_back(
             fmt::format("{}: {} lines without a value are left out", table.path(), missing));

@@ -165,6 +165,7 @@ void tell(const PointFile& file, const TimeColumn& time, const std::string& inst
         fmt::format("{}: {} points ({}), read by {}; {}", table.path(), file.points.size(),
                     nominal ? "nominal and measured" : "axis positions and measured",
                     instrument.empty() ? "an instrument in M" : instrument, table.dialect_words()));
+    time.note_unit(table, result.notes);
     if (time.invented())
         result.notes.push_back(table.path() +
                                ": no column of times: points are taken as one minute apart");
