@@ -9,6 +9,7 @@
 
 #include "base/alarm.h"
 #include "base/units.h"
+#include "imports/iso_tables.h"
 #include "imports/iso_test.h"
 #include "imports/iso_values.h"
 #include "imports/row_writer.h"
@@ -185,7 +186,8 @@ Imported import_iso230_2(const ImportRequest& request) {
     IsoImport import(plain);
     import.result.notes = std::move(notes);
     const std::vector<TextTable> tables = tables_of(plain, import.result.notes);
-    for (const TextTable& table : tables) import.take(table);
+    for (const TextTable* table : tables_with_readings(tables, import.result.notes))
+        import.take(*table);
     import.write();
     return std::move(import.result);
 }
