@@ -70,6 +70,11 @@ std::optional<std::size_t> find_first_column(const TextTable& table,
     return std::nullopt;
 }
 
+std::optional<std::size_t> sigma_column(const TextTable& table) {
+    return find_column(table, {"sigma", "u", "uncertainty", "unsicherheit", "sd", "std", "stdev",
+                               "stddev", "standarddeviation", "standardabweichung"});
+}
+
 NumberColumn number_column(const TextTable& table, std::size_t index, Quantity quantity,
                            const std::string& otherwise) {
     const TextColumn& column = table.columns()[index];

@@ -23,6 +23,9 @@ std::string plain_name(const std::string& name);
 std::optional<std::size_t> find_column(const TextTable& table,
                                        const std::vector<std::string>& names);
 
+/// A column of standard uncertainties: sigma, sd, std, u ...
+std::optional<std::size_t> sigma_column(const TextTable& table);
+
 /// The cells of a line of a table.
 struct LineCells {
     const TextTable& table;

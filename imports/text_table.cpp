@@ -55,15 +55,6 @@ std::string_view without_mark(std::string_view text) {
     return begin == std::string_view::npos ? std::string_view() : text.substr(begin);
 }
 
-std::vector<Line> lines_of(std::string_view text) {
-    std::vector<Line> lines;
-    for (int number = 1; !text.empty(); ++number) {
-        const std::string_view line = records::take_line(text);
-        if (!records::without_blanks(line).empty()) lines.push_back({line, number});
-    }
-    return lines;
-}
-
 bool begins_with_number(std::string_view text) {
     const std::size_t k = text.find_first_not_of(" \t\"");
     return k != std::string_view::npos && one_of(text[k], "0123456789+-.");
@@ -359,32 +350,6 @@ void TextTable::fail(std::size_t i, std::size_t column, const std::string& messa
     Cells row;
     read(i, row);
     line(i).fail(message, row[column].column);
-}
-
-std::vector<TextTable> tables_of(std::string_view text, const std::string& path,
-                                 const std::string& told, std::vector<std::string>& notes) {
-    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-    const std::vector<Line> lines = lines_of(text);
-    if (lines.empty()) throw InputError("the file is empty", {path, 1, 1});
-    std::vector<records::TableLine> sample;
-    for (std::size_t i = 0; i < std::min(lines.size(), sample_lines); ++i)
-        sample.push_back({lines[i].text, lines[i].number, path});
-    const Dialect dialect = dialect_of(sample);
-    std::vector<TextTable> tables;
-    for (std::size_t begin = 0; begin < lines.size(); begin = tables.back().end()) {
-        TextTable table(lines, begin, path, dialect, told);
-        if (table.size() == 0) {
-            notes.push_back(fmt::format("{}: the lines from {} on, after the table, are not used",
-                                        path, lines[begin].number));
-            break;
-        }
-        if (const int first = table.header_line().number;
-            !told.empty() && begin == 0 && first != lines[0].number)
-            notes.push_back(fmt::format("{}: the rows begin at line {}", path, first));
-        tables.push_back(std::move(table));
-        if (tables.size() > 1) tables.back().inherit(tables[tables.size() - 2].head());
-    }
-    return tables;
 }
 
 }  // namespace trunnion::imports

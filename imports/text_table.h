@@ -97,10 +97,4 @@ class TextTable {
     std::size_t end_ = 0;
 };
 
-/// All tables of a file in order; head lines of a table also apply to the following ones. `told`:
-/// as for TextTable. Throws InputError (with position) for a text without a table. The text must
-/// outlive them. `notes` gets a line for text after the last table.
-std::vector<TextTable> tables_of(std::string_view text, const std::string& path,
-                                 const std::string& told, std::vector<std::string>& notes);
-
 }  // namespace trunnion::imports
