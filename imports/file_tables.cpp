@@ -24,6 +24,14 @@ std::vector<Line> lines_of(std::string_view text) {
     return lines;
 }
 
+/// Lines that are not rows of told columns, although they have numbers.
+bool has_numbers_above(const std::vector<Line>& lines, int first, const Dialect& dialect) {
+    return std::any_of(lines.begin(), lines.end(), [&](const Line& line) {
+        return line.number < first && line.text.front() != '#' &&
+               has_number(cells_of({line.text, line.number, ""}, dialect.separator), dialect);
+    });
+}
+
 }  // namespace
 
 std::vector<TextTable> tables_of(std::string_view text, const std::string& path,
@@ -47,8 +55,8 @@ std::vector<TextTable> tables_of(const std::vector<Line>& lines, const std::stri
                                         path, lines[begin].number));
             break;
         }
-        if (const int first = table.header_line().number;
-            !told.empty() && begin == 0 && first != lines[0].number)
+        const int first = table.header_line().number;
+        if (!told.empty() && begin == 0 && has_numbers_above(lines, first, dialect))
             notes.push_back(fmt::format("{}: the rows begin at line {}", path, first));
         tables.push_back(std::move(table));
         if (tables.size() > 1) tables.back().inherit(tables[tables.size() - 2].head());

@@ -2,6 +2,8 @@
 // telescope against stars.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "imports/log_columns.h"
 #include "imports/row_writer.h"
 
@@ -156,9 +158,13 @@ void import_sights(const TextTable& table, const ImportRequest& request, RowWrit
 
 Imported import_pointing(const ImportRequest& request) {
     Imported result;
-    RowWriter rows(request.setup, "pointing", {"sigma_deg"}, true, true);
-    for (const TextTable& table : tables_of(request, result.notes))
-        import_sights(table, request, rows, result);
+    const std::vector<TextTable> tables = tables_of(request, result.notes);
+    const bool sigma = std::any_of(tables.begin(), tables.end(),
+                                   [](const TextTable& t) { return sigma_column(t).has_value(); });
+    std::vector<std::string> columns;
+    if (sigma) columns.emplace_back("sigma_deg");
+    RowWriter rows(request.setup, "pointing", columns, true, true);
+    for (const TextTable& table : tables) import_sights(table, request, rows, result);
     result.readings = rows.take();
     return result;
 }
