@@ -12,7 +12,8 @@ using Line = TextTable::Line;
 using Cells = std::vector<records::TableCell>;
 
 constexpr std::size_t most_properties = 40;  ///< lines between the names and the first row
-constexpr std::size_t most_lines = 200;      ///< above the names
+constexpr std::size_t fewest_properties = 2;
+constexpr std::size_t most_lines = 200;  ///< above the names
 
 class Head {
   public:
@@ -48,18 +49,20 @@ class Head {
     const Dialect& dialect_;
 };
 
-/// Rows behind the names in lines[at] and at least one line of properties.
+/// Rows behind the names in lines[at] and their properties; a line of units is no property.
 std::optional<ExportHead> head_at(const Head& head, std::size_t at, std::size_t end) {
     static const std::set<std::string> unit_words{"unit", "units", "einheit", "engineeringunit"};
     const std::size_t width = head.width(at);
     if (head.key(at) != "name" || width < 2 || head.has_number(at)) return std::nullopt;
     ExportHead found{at, 0, {}};
+    std::size_t properties = 0;
     for (std::size_t i = at + 1; i < end; ++i) {
         if (head.is_row(i, width) && head.is_row(i + 1, width)) {
             found.first_row = i;
-            return i > at + 1 ? std::optional(found) : std::nullopt;
+            return properties >= fewest_properties ? std::optional(found) : std::nullopt;
         }
         if (head.begins_with_number(i)) return std::nullopt;
+        properties += head.key(i).empty() ? 0 : 1;
         if (unit_words.contains(head.key(i))) found.units = i;
     }
     return std::nullopt;

@@ -14,8 +14,8 @@ struct ExportHead {
     std::optional<std::size_t> units;
 };
 
-/// The first one at or after lines[begin]; empty without lines of properties between names and
-/// rows.
+/// The first one at or after lines[begin]; empty without two lines of properties between names
+/// and rows.
 std::optional<ExportHead> find_export_head(const std::vector<TextTable::Line>& lines,
                                            std::size_t begin, const Dialect& dialect);
 

@@ -72,12 +72,15 @@ Judged judged(const TextTable& table) {
     }
 }
 
-std::string passed_over(const TextTable& table) {
+std::string passed_over(const Judged& one) {
+    const TextTable& table = *one.table;
     std::string heading;
     if (!table.headings().empty())
         heading = fmt::format(" ('{}')", heading_words(table.headings().front().text));
-    return fmt::format("{}: the table of line {}{} has no readings of targets: passed over",
-                       table.path(), table.header_line().number, heading);
+    return fmt::format(
+        "{}: the table of line {}{} {}: passed over", table.path(), table.header_line().number,
+        heading,
+        one.may_be_read ? "is one of results, by its headings" : "has no readings of targets");
 }
 
 /// Of one file. Its readings are under the headings that speak least of results.
@@ -99,7 +102,7 @@ std::vector<const TextTable*> chosen(const std::vector<Judged>& list,
     for (const Judged& one : list) {
         const bool take = one.may_be_read && one.results <= least;
         if (take) tables.push_back(one.table);
-        if (!take) notes.push_back(passed_over(*one.table));
+        if (!take) notes.push_back(passed_over(one));
     }
     return tables;
 }

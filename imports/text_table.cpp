@@ -90,12 +90,14 @@ std::size_t shared_path(const Cells& names) {
 TextColumn column_named(const std::string& name, int column) {
     std::string text = name;
     for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}}) {
-        const std::size_t at = text.find(open), end = text.find(close, at);
-        if (at == std::string::npos || end == std::string::npos) continue;
-        const std::string unit(records::without_blanks(text.substr(at + 1, end - at - 1)));
-        if (!find_unit(unit) && (open == '(' || is_index(unit))) continue;  // a remark
-        text.erase(at, end - at + 1);
-        return {std::string(records::without_blanks(text)), unit, column};
+        for (std::size_t at = 0; (at = text.find(open, at)) != std::string::npos; ++at) {
+            const std::size_t end = text.find(close, at);
+            if (end == std::string::npos) break;
+            const std::string unit(records::without_blanks(text.substr(at + 1, end - at - 1)));
+            if (!find_unit(unit) && (open == '(' || is_index(unit))) continue;  // a remark
+            text.erase(at, end - at + 1);
+            return {std::string(records::without_blanks(text)), unit, column};
+        }
     }
     const std::size_t cut = text.find_last_of("_/ ,");
     if (cut != std::string::npos && cut > 0) {

@@ -111,6 +111,10 @@ TEST_CASE("the head of exported signals is passed over", "[imports][clocks]") {
     const auto turned = read_rows(
         setup, {log_kind, scope_head + names + "Unit;;rad/s;mrad\n" + scope_rows, {}, ""});
     CHECK(*turned[0].value_mm == Approx(0.0365 - rad_from_deg(36.25)));
+    // The names of points above a line of units are none of signals.
+    const auto named =
+        read_rows(setup, {log_kind, "Name;X cmd;X act\n-;mm;um\n7;0;1\n8;0;2\n", {}, ""});
+    CHECK(named[1].time_s == 60.0);
     // Names that tell no axis are refused where they are; the user tells them.
     const std::string others =
         scope_head + "Name;fPos (Counter);fVel;fPos (Resolver)\n" + scope_rows;

@@ -101,6 +101,8 @@ TEST_CASE("instruments come before the sensors of the axis", "[imports][reports]
           "'Resolver_pos(i)' taken as the value, not 'Motor diff'");
     takes("n,target [mm],actual [mm],laser position [mm],p", 0.009,
           "'laser position' taken as the value, not 'actual'");
+    takes("n,target (mm),Encoder (i) (mm),Laser (i) (mm),p", 0.009,
+          "'Laser (i)' taken as the value, not 'Encoder (i)'");
     // The other sign: the position of the reference is read instead.
     takes("n,target [mm],Motor [mm],Reference [mm],Diff tgt-ref [um]", 0.009,
           "'Reference' taken as the value, not 'Motor'");
