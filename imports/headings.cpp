@@ -16,6 +16,15 @@ std::size_t marks_of(std::string_view text) {
     return std::min(text.find_first_not_of('#'), text.size());
 }
 
+/// "Mean temperature 20.5" is a remark.
+bool has_decimals(std::string_view text) {
+    for (std::size_t k = 1; k + 1 < text.size(); ++k)
+        if (text[k] == '.' && text[k - 1] >= '0' && text[k - 1] <= '9' && text[k + 1] >= '0' &&
+            text[k + 1] <= '9')
+            return true;
+    return false;
+}
+
 /// "Results", not "Feed: 1000" or "1;2".
 bool only_words(std::string_view text) {
     return text.find_first_of("=;|\t,") == std::string_view::npos &&
@@ -82,7 +91,7 @@ int result_words(const std::vector<Line>& headings) {
     for (const Line& line : headings) {
         if (&line != &headings.front() && marks_of(line.text) == 1) break;  // of the whole file
         const std::vector<std::string> words = words_of(heading_words(line.text));
-        if (words.size() > longest_heading) continue;
+        if (words.size() > longest_heading || has_decimals(line.text)) continue;
         for (std::size_t k = 0; k < words.size(); ++k) {
             const bool next = k + 1 < words.size() && words[k + 1].starts_with("deviation");
             strength =

@@ -161,8 +161,8 @@ std::optional<std::size_t> target_column(const TextTable& table) {
         table, {{"target", "targetposition", "targetpos", "tgt", "tgtpos", "ziel", "zielposition",
                  "zielpos"},
                 {"nominal", "nominalposition", "soll", "sollposition", "sollwert", "nominalangle"},
-                {"commanded", "command", "cmd", "commandedposition", "setpoint", "reference",
-                 "referenceangle", "ref"},
+                {"commanded", "command", "cmd", "commandedposition", "setpoint"},
+                {"reference", "referenceangle", "ref"},
                 {"position", "pos", "positionmm", "angle", "winkel"},
                 {"x", "y", "z", "a", "b", "c"}});
     if (named) return named;

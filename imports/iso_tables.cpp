@@ -11,6 +11,7 @@
 #include "imports/iso_columns.h"
 #include "imports/iso_points.h"
 #include "imports/run_names.h"
+#include "imports/units.h"
 
 namespace trunnion::imports {
 namespace {
@@ -41,6 +42,26 @@ bool is_result(const TextColumn& column) {
                        [&](const std::string& word) { return words.contains(word); });
 }
 
+/// A temperature or a time at a target.
+bool is_condition(const TextColumn& column) {
+    static const std::set<std::string> words{"temperature", "temp",       "pressure", "humidity",
+                                             "time",        "temperatur", "zeit",     "date",
+                                             "load",        "speed"};
+    const auto unit = find_unit(column.unit);
+    if (unit && unit->quantity != Quantity::length && unit->quantity != Quantity::angle)
+        return true;
+    const std::vector<std::string> list = words_of(column.name);
+    return std::any_of(list.begin(), list.end(),
+                       [&](const std::string& word) { return words.contains(word); });
+}
+
+bool only_conditions(const TextTable& table, std::size_t target) {
+    const std::vector<TextColumn>& columns = table.columns();
+    for (std::size_t k = 0; k < columns.size(); ++k)
+        if (k != target && !is_condition(columns[k])) return false;
+    return true;
+}
+
 template <typename Is>
 bool any_column(const TextTable& table, Is is) {
     return std::any_of(table.columns().begin(), table.columns().end(), is);
@@ -65,7 +86,8 @@ Judged judged(const TextTable& table) {
         const auto target = target_column(table);
         if (!target) return {&table, results == 0 && looks_like_readings(table), false, results};
         const bool value = any_column(table, is_run) || find_value_column(table, *target);
-        const bool only_results = results > 0 || any_column(table, is_result);
+        const bool only_results =
+            results > 0 || any_column(table, is_result) || only_conditions(table, *target);
         return {&table, value || !only_results, true, results};
     } catch (const InputError&) {
         return {&table, results == 0, true, results};  // reading it tells the fault

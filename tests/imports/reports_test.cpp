@@ -103,6 +103,7 @@ TEST_CASE("instruments come before the sensors of the axis", "[imports][reports]
           "'laser position' taken as the value, not 'actual'");
     takes("n,target (mm),Encoder (i) (mm),Laser (i) (mm),p", 0.009,
           "'Laser (i)' taken as the value, not 'Encoder (i)'");
+    takes("n,setpoint [mm],motor [mm],reference [mm],p", 0.009, "'reference' taken as the value");
     // The other sign: the position of the reference is read instead.
     takes("n,target [mm],Motor [mm],Reference [mm],Diff tgt-ref [um]", 0.009,
           "'Reference' taken as the value, not 'Motor'");
@@ -155,6 +156,7 @@ TEST_CASE("tables without readings are passed over, with their line and heading"
           "1|10|.008|.010|\n2|20|.009|.008|\n3|30|.007|.006|\n",
           "Mean deviations\ntarget [mm]|+ [mm]|- [mm]|\n10|.0045|.009\n20|.0065|.0085\n",
           "Standard deviations\ntarget [mm]|+ [mm]|- [mm]|\n10|.0045|.009\n20|.0065|.0085\n",
+          "# Drift\nposition [mm]|temperature|\n10|20.5\n20|20.6\n",
           "# Reversal\ntarget [mm]|B [mm]|\n10|.0045\n20|.0065\n"}) {
         INFO(more);
         CHECK(rows_of(readings + more) == expected);
@@ -190,4 +192,7 @@ TEST_CASE("results are the readings of a file without others", "[imports][report
     }
     CHECK(read_rows(setup, {iso, "# Results\n" + table + "# Mean values\n" + table, {"axis=X"}, ""})
               .size() == 4);
+    // A remark on the mean of something else.
+    CHECK(read_rows(setup, {iso, table + "# Mean temperature 20.5\n" + table, {"axis=X"}, ""})
+              .size() == 8);
 }
