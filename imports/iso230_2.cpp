@@ -136,14 +136,18 @@ class IsoImport {
     }
 
     void write() {
-        for (IsoTest& test : tests_) {
-            std::vector<IsoPoint>& points = test.series.points;
-            take_deviations(*test.table, test.facts, test.quantities, points, result.notes);
-            rows_.begin_file(*test.table, test.facts);
-            if (!test.series.timed && !test.facts.has("step_s")) rows_.invent_times();
-            if (test.series.dated) rows_.name_days();
-            write_points(points, row_of(test.what, test.facts), test.axis, rows_);
-            tell(*test.table, points, test.axis, test.what.angular, result);
+        for (auto test = tests_.begin(); test != tests_.end(); ++test) {
+            take_deviations(*test->table, test->facts, test->quantities, test->series.points,
+                            result.notes);
+            const auto earlier =
+                std::find_if(tests_.begin(), test, [&](auto& e) { return repeats(e, *test); });
+            if (earlier == test)
+                write(*test);
+            else
+                result.notes.push_back(fmt::format(
+                    "{}: the table of line {} repeats the readings of line {}: passed over",
+                    test->table->path(), test->table->header_line().number,
+                    earlier->table->header_line().number));
         }
         result.readings = rows_.take();
     }
@@ -151,6 +155,15 @@ class IsoImport {
     Imported result;
 
   private:
+    void write(const IsoTest& test) {
+        const std::vector<IsoPoint>& points = test.series.points;
+        rows_.begin_file(*test.table, test.facts);
+        if (!test.series.timed && !test.facts.has("step_s")) rows_.invent_times();
+        if (test.series.dated) rows_.name_days();
+        write_points(points, row_of(test.what, test.facts), test.axis, rows_);
+        tell(*test.table, points, test.axis, test.what.angular, result);
+    }
+
     records::Reading row_of(const WhatWasRead& what, const Facts& facts) {
         const setup::Setup& setup = request_.setup;
         records::Reading row;

@@ -181,6 +181,21 @@ TEST_CASE("a table of readings that is broken is refused beside good ones", "[im
     refuses(setup, {iso, ratios, {"axis=X"}, ""}, "no column of targets", 2);
 }
 
+TEST_CASE("readings that a report lists again are read once", "[imports][reports]") {
+    const setup::Setup setup = import_bench::setup();
+    const std::string positions =
+        "target [mm],1+ [mm],1- [mm]\n0,0.00042,0.00318\n100,100.00144,100.00523\n"
+        "200,200.00251,200.00405\n";
+    const std::string deviations =
+        "target [mm],1+ [um],1- [um]\n0,0.4,3.2\n100,1.4,5.2\n200,2.5,4.0\n";
+    const Case c{iso, "# Positions\n" + positions + "# Deviations\n" + deviations, {"axis=X"}, ""};
+    CHECK(read_rows(setup, c).size() == 6);
+    CHECK(has(imported(setup, c).notes,
+              "the table of line 7 repeats the readings of line 2: passed over"));
+    const std::string others = "target [mm],1+ [um],1- [um]\n0,0.9,3.2\n100,1.4,5.2\n200,2.5,4.0\n";
+    CHECK(read_rows(setup, {iso, positions + others, {"axis=X"}, ""}).size() == 12);
+}
+
 TEST_CASE("results are the readings of a file without others", "[imports][reports]") {
     const setup::Setup setup = import_bench::setup();
     const std::string table = "target [mm],1+ [um],1- [um]\n0,0,3\n100,1,5\n";
@@ -193,6 +208,7 @@ TEST_CASE("results are the readings of a file without others", "[imports][report
     CHECK(read_rows(setup, {iso, "# Results\n" + table + "# Mean values\n" + table, {"axis=X"}, ""})
               .size() == 4);
     // A remark on the mean of something else.
-    CHECK(read_rows(setup, {iso, table + "# Mean temperature 20.5\n" + table, {"axis=X"}, ""})
+    const std::string warmer = "target [mm],1+ [um],1- [um]\n0,0.2,3.1\n100,1.4,5.3\n";
+    CHECK(read_rows(setup, {iso, table + "# Mean temperature 20.5\n" + warmer, {"axis=X"}, ""})
               .size() == 8);
 }
