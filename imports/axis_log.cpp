@@ -50,6 +50,7 @@ void tell(const TextTable& table, const LogColumns& log, const TimeColumn& time,
                                          log.places_only() ? "positions" : "servo log",
                                          axes_words(log), table.size(), time.words(),
                                          table.dialect_words()));
+    time.note_unit(table, result.notes);
     if (time.invented())
         result.notes.push_back(
             table.path() +

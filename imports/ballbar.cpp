@@ -7,6 +7,7 @@
 #include "base/alarm.h"
 #include "base/units.h"
 #include "imports/row_writer.h"
+#include "imports/time_column.h"
 
 namespace trunnion::imports {
 namespace {
@@ -174,6 +175,7 @@ void import_circle(const ImportRequest& request, const TextTable& table, RowWrit
     const Circle circle = circle_of(table, facts);
     const BarColumns columns = columns_of(table, facts);
     const TimeColumn time(table, facts);
+    time.note_unit(table, result.notes);
     std::vector<double> times = times_of(table, time);
     std::vector<double> angles = angles_of(table, columns, circle, times);
     unwrap(table, circle, angles);

@@ -1,18 +1,13 @@
 #include "imports/columns.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cctype>
 
 #include "base/alarm.h"
 #include "base/numbers.h"
-#include "imports/times.h"
 
 namespace trunnion::imports {
 namespace {
-
-constexpr double seconds_a_day = 86400.0;
 
 bool upper(char c) {
     return std::isupper(static_cast<unsigned char>(c)) != 0;
@@ -35,9 +30,21 @@ std::vector<std::string> words_of(const std::string& name) {
     return words;
 }
 
-std::string plain_name(const std::string& name) {
+std::string without_index(const std::string& name) {
+    std::vector<std::string> words = words_of(name);
+    const auto is_index = [](const std::string& w) { return w == "i" || w == "j" || w == "ij"; };
+    std::size_t end = words.size();
+    while (end > 0 && is_index(words[end - 1])) --end;
+    // "x(i,j)" may be anything.
+    if (end == 0 || (end == 1 && words[0].size() == 1)) end = words.size();
     std::string out;
-    for (const std::string& word : words_of(name)) out += word;
+    for (std::size_t k = 0; k < end; ++k) out += (k == 0 ? "" : " ") + words[k];
+    return out;
+}
+
+std::string plain_name(const std::string& name) {
+    std::string out = without_index(name);
+    std::erase(out, ' ');
     return out;
 }
 
@@ -61,6 +68,11 @@ std::optional<std::size_t> find_first_column(const TextTable& table,
     for (const std::vector<std::string>& names : lists)
         if (const auto found = find_column(table, names)) return found;
     return std::nullopt;
+}
+
+std::optional<std::size_t> sigma_column(const TextTable& table) {
+    return find_column(table, {"sigma", "u", "uncertainty", "unsicherheit", "sd", "std", "stdev",
+                               "stddev", "standarddeviation", "standardabweichung"});
 }
 
 NumberColumn number_column(const TextTable& table, std::size_t index, Quantity quantity,
@@ -120,47 +132,6 @@ double number_in(const TextTable& table, std::size_t row,
                                  "' has one unit, told in its name or in a row of units",
                              cell.column);
     return table.number(row, cell, name);
-}
-
-TimeColumn::TimeColumn(const TextTable& table, const Facts& facts,
-                       std::optional<std::size_t> column) {
-    const auto clock =
-        find_column(table, {"time", "times", "timestamp", "datetime", "zeit", "zeitstempel", "t",
-                            "uhrzeit", "clock", "timems", "elapsed", "elapsedtime", "utc"});
-    const auto date = find_column(table, {"date", "datum"});
-    column_ = column ? column : clock ? clock : date;
-    if (!column && clock) date_ = date;
-    if (const auto step = facts.positive("step_s")) step_s_ = *step;
-    if (!column_) return;
-    name_ = table.columns()[*column_].name;
-    std::vector<records::TableCell> cells;
-    table.read(0, cells);
-    stamps_ = !table.find_number(cells[*column_].text);
-    if (!stamps_) factor_ = number_column(table, *column_, Quantity::time, "s").factor;
-    dated_ = stamps_ && time_s(table, 0, cells) > seconds_a_day;
-}
-
-double TimeColumn::time_s(const TextTable& table, std::size_t row,
-                          const std::vector<records::TableCell>& cells) const {
-    if (!column_) return step_s_ * static_cast<double>(row);
-    if (!stamps_) return number_in(table, row, cells, {*column_, factor_});
-    double sum_s = 0.0;
-    for (const auto& column : {column_, date_}) {
-        if (!column) continue;
-        const records::TableCell& cell = cells[*column];
-        const auto time = seconds_of(cell.text);
-        if (!time)
-            table.line(row).fail("'" + std::string(cell.text) +
-                                     "' is no time as 2024-03-01T08:15:30 (01/02/2024 is two days)",
-                                 cell.column);
-        sum_s += *time;
-    }
-    return sum_s;
-}
-
-std::string TimeColumn::words() const {
-    if (column_) return "times from '" + name_ + '\'';
-    return invented() ? "no times: rows one minute apart" : fmt::format("{} s a row", step_s_);
 }
 
 }  // namespace trunnion::imports

@@ -13,13 +13,18 @@ namespace trunnion::imports {
 
 /// The words of a name in lower case: "X1_ActualPosition" gives x1, actual, position.
 std::vector<std::string> words_of(const std::string& name);
-/// Lower case, letters and digits only.
+/// The words of a name without indices at its end: "Reference(i,j)" gives "reference".
+std::string without_index(const std::string& name);
+/// Lower case, letters and digits only, without indices at its end.
 std::string plain_name(const std::string& name);
 
 /// The column with one of these names (in the form of plain_name()); throws InputError when two
 /// columns match.
 std::optional<std::size_t> find_column(const TextTable& table,
                                        const std::vector<std::string>& names);
+
+/// A column of standard uncertainties: sigma, sd, std, u ...
+std::optional<std::size_t> sigma_column(const TextTable& table);
 
 /// The cells of a line of a table.
 struct LineCells {
@@ -45,30 +50,5 @@ std::optional<std::size_t> find_first_column(const TextTable& table,
 /// or a unit after the number, throws InputError with its position.
 double number_in(const TextTable& table, std::size_t row,
                  const std::vector<records::TableCell>& cells, const NumberColumn& column);
-
-/// Times of the rows of one file.
-class TimeColumn {
-  public:
-    /// The given column, or one named `time`, `time_s`, `timestamp`, `date` ..., or a date next to
-    /// a time of day; else the fact step_s; else one minute a row, with a note.
-    TimeColumn(const TextTable& table, const Facts& facts,
-               std::optional<std::size_t> column = std::nullopt);
-
-    /// Seconds; absolute if the file has dates. Throws InputError for a text that is not a time.
-    double time_s(const TextTable& table, std::size_t row,
-                  const std::vector<records::TableCell>& cells) const;
-    bool is_column(std::size_t k) const { return column_ == k || date_ == k; }
-    bool is_told() const { return column_.has_value(); }  ///< the file has times
-    bool dated() const { return dated_; }                 ///< seconds since 1970
-    bool invented() const { return !column_ && step_s_ == one_minute_s; }
-    std::string words() const;  ///< "times from 'Timestamp'", "0.1 s a row" ...
-
-  private:
-    static constexpr double one_minute_s = 60.0;
-    std::optional<std::size_t> column_, date_;
-    bool stamps_ = false, dated_ = false;
-    double factor_ = 1.0, step_s_ = one_minute_s;
-    std::string name_;
-};
 
 }  // namespace trunnion::imports

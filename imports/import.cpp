@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/alarm.h"
+#include "imports/file_tables.h"
 
 namespace trunnion::imports {
 namespace {

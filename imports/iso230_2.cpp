@@ -9,6 +9,7 @@
 
 #include "base/alarm.h"
 #include "base/units.h"
+#include "imports/iso_tables.h"
 #include "imports/iso_test.h"
 #include "imports/iso_values.h"
 #include "imports/row_writer.h"
@@ -135,14 +136,18 @@ class IsoImport {
     }
 
     void write() {
-        for (IsoTest& test : tests_) {
-            std::vector<IsoPoint>& points = test.series.points;
-            take_deviations(*test.table, test.facts, test.quantities, points, result.notes);
-            rows_.begin_file(*test.table, test.facts);
-            if (!test.series.timed && !test.facts.has("step_s")) rows_.invent_times();
-            if (test.series.dated) rows_.name_days();
-            write_points(points, row_of(test.what, test.facts), test.axis, rows_);
-            tell(*test.table, points, test.axis, test.what.angular, result);
+        for (auto test = tests_.begin(); test != tests_.end(); ++test) {
+            take_deviations(*test->table, test->facts, test->quantities, test->series.points,
+                            result.notes);
+            const auto earlier =
+                std::find_if(tests_.begin(), test, [&](auto& e) { return repeats(e, *test); });
+            if (earlier == test)
+                write(*test);
+            else
+                result.notes.push_back(fmt::format(
+                    "{}: the table of line {} repeats the readings of line {}: passed over",
+                    test->table->path(), test->table->header_line().number,
+                    earlier->table->header_line().number));
         }
         result.readings = rows_.take();
     }
@@ -150,6 +155,15 @@ class IsoImport {
     Imported result;
 
   private:
+    void write(const IsoTest& test) {
+        const std::vector<IsoPoint>& points = test.series.points;
+        rows_.begin_file(*test.table, test.facts);
+        if (!test.series.timed && !test.facts.has("step_s")) rows_.invent_times();
+        if (test.series.dated) rows_.name_days();
+        write_points(points, row_of(test.what, test.facts), test.axis, rows_);
+        tell(*test.table, points, test.axis, test.what.angular, result);
+    }
+
     records::Reading row_of(const WhatWasRead& what, const Facts& facts) {
         const setup::Setup& setup = request_.setup;
         records::Reading row;
@@ -185,7 +199,8 @@ Imported import_iso230_2(const ImportRequest& request) {
     IsoImport import(plain);
     import.result.notes = std::move(notes);
     const std::vector<TextTable> tables = tables_of(plain, import.result.notes);
-    for (const TextTable& table : tables) import.take(table);
+    for (const TextTable* table : tables_with_readings(tables, import.result.notes))
+        import.take(*table);
     import.write();
     return std::move(import.result);
 }

@@ -10,6 +10,7 @@
 #include "imports/iso_values.h"
 #include "imports/pass_order.h"
 #include "imports/run_names.h"
+#include "imports/time_column.h"
 #include "imports/told_direction.h"
 
 namespace trunnion::imports {
@@ -143,13 +144,6 @@ std::vector<IsoPoint> matrix_points(const IsoSource& source, const std::vector<R
     return points;
 }
 
-/// "Position;0;100;200" above "Run 1 up;0,1;0,3;0,2".
-bool targets_across(const TextTable& table) {
-    const auto number = [&](const TextColumn& c) { return table.find_number(c.name); };
-    return table.columns().size() > 3 &&
-           std::all_of(table.columns().begin() + 1, table.columns().end(), number);
-}
-
 std::vector<IsoPoint> across_points(const IsoSource& source) {
     const auto& [table, facts, quantities, target, factor, way, way_text, heading] = source;
     const std::string& told = table.columns()[0].unit;
@@ -200,8 +194,8 @@ ListColumns list_columns(const IsoSource& source, std::vector<std::string>& note
                                  1);
     note_other_values(table, source.target, *value, notes);
     ListColumns columns{{*value, value_factor(source, *value)}, {}, {}, {}};
-    columns.run = find_column(
-        table, {"run", "cycle", "lauf", "zyklus", "repeat", "wiederholung", "series", "i"});
+    columns.run = find_column(table, {"run", "cycle", "lauf", "zyklus", "repeat", "wiederholung",
+                                      "series", "i", "jcycle"});
     columns.direction = find_column(table, {"direction", "dir", "richtung", "sense", "approach"});
     columns.axis = find_column(table, {"axis", "achse", "axisname"});
     return columns;
@@ -256,6 +250,7 @@ std::vector<IsoSeries> listed_series(const IsoSource& source, Imported& result) 
         at->points.push_back(point);
     }
     if (!time.invented()) result.notes.push_back(table.path() + ": " + time.words());
+    time.note_unit(table, result.notes);
     if (missing > 0)
         result.notes.push_back(fmt::format("{}: {} line{} without a value", table.path(), missing,
                                            missing > 1 ? "s" : ""));
@@ -324,6 +319,12 @@ void take_way(IsoSource& source) {
 }
 
 }  // namespace
+
+bool targets_across(const TextTable& table) {
+    const auto number = [&](const TextColumn& c) { return table.find_number(c.name); };
+    return table.columns().size() > 3 &&
+           std::all_of(table.columns().begin() + 1, table.columns().end(), number);
+}
 
 void step_times(const Facts& facts, std::vector<IsoPoint>& points) {
     const double step_s = facts.positive("step_s").value_or(60.0);

@@ -31,6 +31,9 @@ struct IsoQuantities {
     Quantity target = Quantity::length, value = Quantity::length;
 };
 
+/// "Position;0;100;200" above "Run 1 up;0,1;0,3;0,2".
+bool targets_across(const TextTable& table);
+
 /// Times of points without any: a row each minute, or --with step_s=.
 void step_times(const Facts& facts, std::vector<IsoPoint>& points);
 

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <set>
+#include <tuple>
 #include <utility>
 
 namespace trunnion::imports {
@@ -75,6 +78,29 @@ void add_test(std::vector<IsoTest>& tests, IsoTest test, std::vector<std::string
                     test.table->path(), test.axis.name, other->table->header_line().number,
                     test.table->header_line().number));
     join(*other, test);
+}
+
+bool repeats(const IsoTest& earlier, const IsoTest& test) {
+    // Another measurement differs by its noise, which is far more of the range.
+    constexpr double rounding = 0.05;
+    const auto same = [&](const char* fact) {
+        return earlier.facts.text(fact) == test.facts.text(fact);
+    };
+    if (earlier.axis.axis != test.axis.axis || earlier.what.test != test.what.test ||
+        earlier.table->path() != test.table->path() || !same("session") || !same("test"))
+        return false;
+    std::map<std::tuple<double, int, int>, double> known;
+    for (const IsoPoint& p : earlier.series.points)
+        known[{p.target, p.direction, p.run}] = p.deviation;
+    double low = test.series.points.front().deviation, high = low, apart = 0.0;
+    for (const IsoPoint& p : test.series.points) {
+        const auto it = known.find({p.target, p.direction, p.run});
+        if (it == known.end()) return false;
+        low = std::min(low, p.deviation);
+        high = std::max(high, p.deviation);
+        apart = std::max(apart, std::abs(it->second - p.deviation));
+    }
+    return high > low && apart <= rounding * (high - low);
 }
 
 }  // namespace trunnion::imports

@@ -36,4 +36,8 @@ struct IsoTest {
 /// other direction, both are one test with one zero, with a note.
 void add_test(std::vector<IsoTest>& tests, IsoTest test, std::vector<std::string>& notes);
 
+/// True when `test` has only readings of `earlier`, but for rounding: a report may list them again
+/// as deviations. Both hold deviations.
+bool repeats(const IsoTest& earlier, const IsoTest& test);
+
 }  // namespace trunnion::imports

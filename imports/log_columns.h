@@ -7,6 +7,7 @@
 
 #include "imports/columns.h"
 #include "imports/facts.h"
+#include "imports/time_column.h"
 
 namespace trunnion::imports {
 

@@ -142,13 +142,15 @@ PointColumns point_columns(const TextTable& table, const setup::Setup& setup, co
                            const TimeColumn& time) {
     PointColumns columns;
     columns.session = find_column(table, {"session", "setup", "tag", "day"});
-    const auto sigma = find_column(table, {"sigma", "u", "uncertainty", "unsicherheit"});
+    const auto sigma = sigma_column(table);
     if (sigma)
         columns.sigma = number_column(table, *sigma, Quantity::length, facts.text("unit", "mm"));
     if (take_lines(table, facts, time, columns)) return columns;
+    columns.feature = find_column(table, {"feature", "artefact"});
     std::vector<std::pair<std::size_t, ColumnRole>> unit_open;
     for (std::size_t k = 0; k < table.columns().size(); ++k) {
-        if (time.is_column(k) || columns.session == k || sigma == k) continue;
+        if (time.is_column(k) || columns.session == k || columns.feature == k || sigma == k)
+            continue;
         const TextColumn& column = table.columns()[k];
         const auto role = role_of(column.name, setup.machine.chain.names());
         if (!role || role->rate != Rate::position || role->role == Role::following_error)

@@ -9,6 +9,7 @@
 
 #include "imports/columns.h"
 #include "imports/facts.h"
+#include "imports/time_column.h"
 
 namespace trunnion::imports {
 
@@ -19,7 +20,7 @@ struct PointColumns {
     ThreeColumns nominal, measured, error;            ///< error: measured - nominal
     std::vector<std::pair<Axis, NumberColumn>> axes;  ///< positions of the machine's axes
     std::optional<NumberColumn> sigma;
-    std::optional<std::size_t> session;
+    std::optional<std::size_t> session, feature;
     std::optional<std::size_t> coordinate, name;  ///< one coordinate a line: X, Y or Z, and the
                                                   ///< name of the point
     std::vector<std::string> unused;

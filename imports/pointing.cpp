@@ -2,6 +2,8 @@
 // telescope against stars.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "imports/log_columns.h"
 #include "imports/row_writer.h"
 
@@ -107,12 +109,21 @@ bool write_line(const LineCells& line, const LogColumns& log, const Mount& mount
     return true;
 }
 
+/// Standard uncertainties, in the unit of the column or that of the values.
+std::optional<NumberColumn> sigma_of(const TextTable& table, const Facts& facts, LogColumns& log) {
+    const auto column = sigma_column(table);
+    if (!column) return std::nullopt;
+    std::erase(log.unused, table.columns()[*column].name);
+    return number_column(table, *column, Quantity::angle, facts.text("unit", "deg"));
+}
+
 void import_sights(const TextTable& table, const ImportRequest& request, RowWriter& rows,
                    Imported& result) {
     const setup::Setup& setup = request.setup;
     const Facts facts = request.facts.with_head_of(table);
     const TimeColumn time(table, facts);
     LogColumns log = log_columns(table, setup, facts, time);
+    const auto sigma = sigma_of(table, facts, log);
     const Mount mount(table, setup, log);
     records::Reading row;
     row.test = facts.text("test");
@@ -130,11 +141,13 @@ void import_sights(const TextTable& table, const ImportRequest& request, RowWrit
         table.read(i, cells);
         row.time_s = time.time_s(table, i, cells);
         if (log.session) row.session = cells[*log.session].plain();
+        row.sigma_mm = number_or_none(table, i, cells, sigma);
         missing += write_line({table, i, cells}, log, mount, row, rows) ? 0 : 1;
     }
     result.summary.push_back(fmt::format(
         "{}: pointing of {}, {} lines, {} readings, {}; {}", table.path(), axes_words(log),
         table.size(), rows.count() - before, time.words(), table.dialect_words()));
+    time.note_unit(table, result.notes);
     if (missing > 0)
         result.notes.push_back(
             fmt::format("{}: {} lines without a value are left out", table.path(), missing));
@@ -145,9 +158,13 @@ void import_sights(const TextTable& table, const ImportRequest& request, RowWrit
 
 Imported import_pointing(const ImportRequest& request) {
     Imported result;
-    RowWriter rows(request.setup, "pointing", {}, true, true);
-    for (const TextTable& table : tables_of(request, result.notes))
-        import_sights(table, request, rows, result);
+    const std::vector<TextTable> tables = tables_of(request, result.notes);
+    const bool sigma = std::any_of(tables.begin(), tables.end(),
+                                   [](const TextTable& t) { return sigma_column(t).has_value(); });
+    std::vector<std::string> columns;
+    if (sigma) columns.emplace_back("sigma_deg");
+    RowWriter rows(request.setup, "pointing", columns, true, true);
+    for (const TextTable& table : tables) import_sights(table, request, rows, result);
     result.readings = rows.take();
     return result;
 }

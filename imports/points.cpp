@@ -7,6 +7,8 @@
 #include <map>
 
 #include "base/alarm.h"
+#include "imports/bed_mesh.h"
+#include "imports/file_tables.h"
 #include "imports/point_columns.h"
 #include "imports/row_writer.h"
 
@@ -83,7 +85,7 @@ const setup::Instrument* instrument_of(const setup::Setup& setup, const std::str
 struct PointFile {
     const TextTable& table;
     const PointColumns& columns;
-    const CommandedTarget& target;
+    const CommandedTarget* target;
     const setup::Setup& setup;
     std::vector<MeasuredPoint> points;
 };
@@ -105,7 +107,7 @@ AxisPositions positions_of(const PointFile& file, const MeasuredPoint& point,
     if (linear || !has_slides(file.setup) ||
         std::none_of(point.nominal.begin(), point.nominal.end(), told))
         return at;
-    const auto reached = file.target.reach(at, point.nominal);
+    const auto reached = file.target->reach(at, point.nominal);
     if (!reached)
         file.table.header_line().fail(
             "X, Y and Z do not move this target in the instrument's frame: give the axis "
@@ -122,7 +124,7 @@ void write_point(const PointFile& file, const MeasuredPoint& point,
     if (file.columns.sigma)
         row.sigma_mm = number_in(file.table, point.row, cells, *file.columns.sigma);
     row.commanded = positions_of(file, point, cells, row.commanded);
-    const Vector3 commanded_mm = file.target.read(row.commanded);
+    const Vector3 commanded_mm = file.target->read(row.commanded);
     for (std::size_t d = 0; d < 3; ++d) {
         if (!point.measured[d]) continue;
         const auto component = static_cast<Eigen::Index>(d);
@@ -165,6 +167,7 @@ void tell(const PointFile& file, const TimeColumn& time, const std::string& inst
         fmt::format("{}: {} points ({}), read by {}; {}", table.path(), file.points.size(),
                     nominal ? "nominal and measured" : "axis positions and measured",
                     instrument.empty() ? "an instrument in M" : instrument, table.dialect_words()));
+    time.note_unit(table, result.notes);
     if (time.invented())
         result.notes.push_back(table.path() +
                                ": no column of times: points are taken as one minute apart");
@@ -186,31 +189,57 @@ void count_point(const TextTable& table, std::size_t row,
     ++at->second.count;
 }
 
-void import_table_of_points(const TextTable& table, const ImportRequest& request, RowWriter& rows,
-                            PointCounts& counts, Imported& result) {
+struct PointOutput {
+    RowWriter& rows;
+    PointCounts& counts;
+    Imported& result;
+};
+
+/// The targets of a column `feature`, or the one of --with feature=, or the only one.
+class Targets {
+  public:
+    Targets(const setup::Setup& setup, std::string told, const setup::Instrument* instrument)
+        : setup_(setup), told_(std::move(told)), instrument_(instrument) {}
+
+    const CommandedTarget& named(const std::string& name, records::Reading& row) {
+        const setup::Artefact& artefact =
+            artefact_for(setup_, name.empty() ? told_ : name, setup::Artefact::Kind::target);
+        row.feature = artefact.name;
+        return targets_.try_emplace(artefact.name, setup_, artefact, instrument_).first->second;
+    }
+
+  private:
+    const setup::Setup& setup_;
+    std::string told_;
+    const setup::Instrument* instrument_;
+    std::map<std::string, CommandedTarget> targets_;
+};
+
+void import_table_of_points(const TextTable& table, const ImportRequest& request,
+                            const PointOutput& out) {
+    const auto& [rows, counts, result] = out;
     const setup::Setup& setup = request.setup;
     const Facts facts = request.facts.with_head_of(table);
     const TimeColumn time(table, facts);
     const PointColumns columns = point_columns(table, setup, facts, time);
-    const setup::Artefact& artefact =
-        artefact_for(setup, facts.text("feature"), setup::Artefact::Kind::target);
     const setup::Instrument* instrument = instrument_of(setup, facts.text("instrument"));
-    const CommandedTarget target(setup, artefact, instrument);
+    Targets targets(setup, facts.text("feature"), instrument);
     records::Reading row;
     row.test = facts.text("test", "points");
     row.device = records::Device::point;
-    row.feature = artefact.name;
     if (instrument) row.instrument = instrument->name;
     row.commanded = positions_told(setup, facts.text("at"));
     rows.begin_file(table, facts);
     if (time.dated()) rows.name_days();
     if (time.invented()) rows.invent_times();
     std::size_t left_out = 0;
-    const PointFile file{table, columns, target, setup, measured_points(table, columns, left_out)};
+    PointFile file{table, columns, nullptr, setup, measured_points(table, columns, left_out)};
     std::vector<records::TableCell> cells;
     for (const MeasuredPoint& point : file.points) {
         table.read(point.row, cells);
         row.time_s = time.time_s(table, point.row, cells);
+        file.target =
+            &targets.named(columns.feature ? cells[*columns.feature].plain() : std::string(), row);
         const int before = rows.count();
         write_point(file, point, cells, row, rows);
         if (rows.count() > before)
@@ -219,14 +248,30 @@ void import_table_of_points(const TextTable& table, const ImportRequest& request
     tell(file, time, row.instrument, left_out, result);
 }
 
+void import_file_of_points(const ImportFile& file, const ImportRequest& request,
+                           const PointOutput& out) {
+    std::vector<std::string>& notes = out.result.notes;
+    const std::string told = request.facts.text("columns");
+    if (!is_bed_mesh(file.text)) {
+        for (const TextTable& table : tables_of(file.text, file.path, told, notes))
+            import_table_of_points(table, request, out);
+        return;
+    }
+    const BedMeshTable mesh(file);
+    notes.push_back(file.path +
+                    ": a bed mesh: its points are measured heights, their nominal Z is 0");
+    for (const TextTable& table : tables_of(mesh.lines(), file.path, "", notes))
+        import_table_of_points(table, request, out);
+}
+
 }  // namespace
 
 Imported import_points(const ImportRequest& request) {
     Imported result;
     RowWriter rows(request.setup, "points", {"sigma_mm", "instrument"}, true, false);
     PointCounts counts;
-    for (const TextTable& table : tables_of(request, result.notes))
-        import_table_of_points(table, request, rows, counts, result);
+    for (const ImportFile& file : request.files)
+        import_file_of_points(file, request, {rows, counts, result});
     check_poses(request.setup, counts);
     result.readings = rows.take();
     return result;

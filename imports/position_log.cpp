@@ -8,6 +8,7 @@
 
 #include "base/units.h"
 #include "imports/column_roles.h"
+#include "imports/file_tables.h"
 #include "imports/log_columns.h"
 #include "imports/times.h"
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "imports/columns.h"
 
@@ -15,54 +17,73 @@ std::string lower(std::string word) {
     return word;
 }
 
+constexpr std::pair<const char*, int> direction_words[] = {
+    {"+", 1},
+    {"-", -1},
+    {"up", 1},
+    {"down", -1},
+    {"pos", 1},
+    {"neg", -1},
+    {"positive", 1},
+    {"negative", -1},
+    {"positiv", 1},
+    {"negativ", -1},
+    {"plus", 1},
+    {"minus", -1},
+    {"forward", 1},
+    {"forwards", 1},
+    {"reverse", -1},
+    {"backward", -1},
+    {"backwards", -1},
+    {"back", -1},
+    {"return", -1},
+    {"upward", 1},
+    {"upwards", 1},
+    {"downward", -1},
+    {"downwards", -1},
+    {"ascending", 1},
+    {"descending", -1},
+    {"increasing", 1},
+    {"decreasing", -1},
+    {"rising", 1},
+    {"falling", -1},
+    {"steigend", 1},
+    {"fallend", -1},
+    {"aufsteigend", 1},
+    {"absteigend", -1},
+    {"f", 1},
+    {"r", -1},
+    {"fwd", 1},
+    {"rev", -1},
+    {"bwd", -1},
+    {"vor", 1},
+    {"vorw\xC3\xA4rts", 1},
+    {"vorwaerts", 1},
+    {"r\xC3\xBC"
+     "ckw\xC3\xA4rts",
+     -1},
+    {"rueckwaerts", -1},
+    {"rueck", -1},
+    {"r\xC3\xBC"
+     "ck",
+     -1},
+    {"zurueck", -1},
+    {"hin", 1},
+    {"her", -1},
+    {"1", 1},
+    {"-1", -1},
+    {"+1", 1},
+    {"\xE2\x86\x91", 1},
+    {"\xE2\x86\x93", -1},
+    {"\xE2\x86\x92", 1},
+    {"\xE2\x86\x90", -1},
+    {"cw", -1},
+    {"ccw", 1},
+};
+
 const std::map<std::string, int>& directions() {
-    static const std::map<std::string, int> words{{"+", 1},
-                                                  {"-", -1},
-                                                  {"up", 1},
-                                                  {"down", -1},
-                                                  {"pos", 1},
-                                                  {"neg", -1},
-                                                  {"positive", 1},
-                                                  {"negative", -1},
-                                                  {"positiv", 1},
-                                                  {"negativ", -1},
-                                                  {"plus", 1},
-                                                  {"minus", -1},
-                                                  {"forward", 1},
-                                                  {"forwards", 1},
-                                                  {"reverse", -1},
-                                                  {"backward", -1},
-                                                  {"backwards", -1},
-                                                  {"back", -1},
-                                                  {"return", -1},
-                                                  {"f", 1},
-                                                  {"r", -1},
-                                                  {"fwd", 1},
-                                                  {"rev", -1},
-                                                  {"bwd", -1},
-                                                  {"vor", 1},
-                                                  {"vorw\xC3\xA4rts", 1},
-                                                  {"vorwaerts", 1},
-                                                  {"r\xC3\xBC"
-                                                   "ckw\xC3\xA4rts",
-                                                   -1},
-                                                  {"rueckwaerts", -1},
-                                                  {"rueck", -1},
-                                                  {"r\xC3\xBC"
-                                                   "ck",
-                                                   -1},
-                                                  {"zurueck", -1},
-                                                  {"hin", 1},
-                                                  {"her", -1},
-                                                  {"1", 1},
-                                                  {"-1", -1},
-                                                  {"+1", 1},
-                                                  {"\xE2\x86\x91", 1},
-                                                  {"\xE2\x86\x93", -1},
-                                                  {"\xE2\x86\x92", 1},
-                                                  {"\xE2\x86\x90", -1},
-                                                  {"cw", -1},
-                                                  {"ccw", 1}};
+    static const std::map<std::string, int> words(std::begin(direction_words),
+                                                  std::end(direction_words));
     return words;
 }
 

@@ -8,6 +8,7 @@
 #include "base/toml_reader.h"
 #include "base/units.h"
 #include "imports/row_writer.h"
+#include "imports/time_column.h"
 #include "records/reading_columns.h"
 
 namespace trunnion::imports {
@@ -233,6 +234,7 @@ Imported import_table(const ImportRequest& request) {
         const Map map = MapReader(map_file, table, request.setup).read();
         if (!rows) rows.emplace(request.setup, "table", map.columns, true, true);
         const TimeColumn time(table, facts, time_column_of(map));
+        time.note_unit(table, result.notes);
         LineReader line(table, time);
         rows->begin_file(table, facts);
         if (time.dated()) rows->name_days();

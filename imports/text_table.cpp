@@ -7,6 +7,8 @@
 
 #include "base/alarm.h"
 #include "base/numbers.h"
+#include "imports/export_head.h"
+#include "imports/headings.h"
 #include "imports/told_direction.h"
 #include "imports/units.h"
 
@@ -31,6 +33,11 @@ bool one_of(char c, std::string_view set) {
     return set.find(c) != std::string_view::npos;
 }
 
+/// "--- | --- |" between the names and the rows.
+bool is_rule(std::string_view text) {
+    return text.find_first_not_of("-|: \t") == std::string_view::npos;
+}
+
 /// "[3]" is an index, not a unit.
 bool is_index(std::string_view text) {
     return text.find_first_not_of("0123456789") == std::string_view::npos;
@@ -46,15 +53,6 @@ std::string unit_in(const records::TableCell& cell) {
 std::string_view without_mark(std::string_view text) {
     const std::size_t begin = text.find_first_not_of("#%");
     return begin == std::string_view::npos ? std::string_view() : text.substr(begin);
-}
-
-std::vector<Line> lines_of(std::string_view text) {
-    std::vector<Line> lines;
-    for (int number = 1; !text.empty(); ++number) {
-        const std::string_view line = records::take_line(text);
-        if (!records::without_blanks(line).empty()) lines.push_back({line, number});
-    }
-    return lines;
 }
 
 bool begins_with_number(std::string_view text) {
@@ -92,12 +90,14 @@ std::size_t shared_path(const Cells& names) {
 TextColumn column_named(const std::string& name, int column) {
     std::string text = name;
     for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}}) {
-        const std::size_t at = text.find(open), end = text.find(close, at);
-        if (at == std::string::npos || end == std::string::npos) continue;
-        const std::string unit(records::without_blanks(text.substr(at + 1, end - at - 1)));
-        if (!find_unit(unit) && (open == '(' || is_index(unit))) continue;  // a remark
-        text.erase(at, end - at + 1);
-        return {std::string(records::without_blanks(text)), unit, column};
+        for (std::size_t at = 0; (at = text.find(open, at)) != std::string::npos; ++at) {
+            const std::size_t end = text.find(close, at);
+            if (end == std::string::npos) break;
+            const std::string unit(records::without_blanks(text.substr(at + 1, end - at - 1)));
+            if (!find_unit(unit) && (open == '(' || is_index(unit))) continue;  // a remark
+            text.erase(at, end - at + 1);
+            return {std::string(records::without_blanks(text)), unit, column};
+        }
     }
     const std::size_t cut = text.find_last_of("_/ ,");
     if (cut != std::string::npos && cut > 0) {
@@ -116,13 +116,21 @@ TextColumn column_named(const std::string& name, int column) {
 TextTable::TextTable(const std::vector<Line>& lines, std::size_t begin, std::string path,
                      Dialect dialect, const std::string& told)
     : path_(std::move(path)), dialect_(dialect) {
-    const std::size_t at =
-        told.empty() ? find_header(lines, begin) : first_told_row(lines, begin, told);
+    const auto exported =
+        told.empty() ? find_export_head(lines, begin, dialect) : std::optional<ExportHead>();
+    const std::size_t at = exported       ? exported->names
+                           : told.empty() ? find_header(lines, begin)
+                                          : first_told_row(lines, begin, told);
     read_head(lines, begin, at);
+    headings_ = headings_above(lines, begin, at);
     if (at == lines.size()) return;
     if (told.empty()) read_header(lines, at);
-    take_rows(lines, told.empty() ? at + 1 : at);
-    if (told.empty()) take_units();
+    if (exported) columns_.front().name = "time";
+    take_rows(lines, exported ? exported->first_row : told.empty() ? at + 1 : at);
+    if (exported && exported->units)
+        take_units(cells(lines[*exported->units]));
+    else if (told.empty() && !rows_.empty() && is_units(rows_.front()))
+        take_units_of_first_row();
     if (rows_.empty()) throw InputError("the table has no rows", {path_, header_.number, 1});
 }
 
@@ -206,6 +214,18 @@ void TextTable::read_header(const std::vector<Line>& lines, std::size_t at) {
         columns_.push_back(column_named(cell.plain().substr(path), cell.column));
 }
 
+/// A number or a time where a column has a unit or is that of times: no line of a head, such as
+/// "Start;132907764534190000;Thursday, March 3, 2022".
+bool TextTable::fits(const Cells& row) const {
+    for (std::size_t k = 0; k < row.size(); ++k) {
+        const bool number = !columns_[k].unit.empty() || lower(columns_[k].name) == "time";
+        if (number && !is_data({row[k]}, dialect_) && !begins_with_number(row[k].text) &&
+            !row[k].text.empty())
+            return false;
+    }
+    return has_number(row, dialect_);
+}
+
 /// Columns as given by the user; the first line with as many numbers.
 std::size_t TextTable::first_told_row(const std::vector<Line>& lines, std::size_t begin,
                                       const std::string& told) {
@@ -215,7 +235,7 @@ std::size_t TextTable::first_told_row(const std::vector<Line>& lines, std::size_
     for (std::size_t i = begin; i < lines.size(); ++i) {
         Cells row = cells(lines[i]);
         drop_empty_end(row);
-        if (row.size() == columns_.size() && has_number(row, dialect_)) {
+        if (row.size() == columns_.size() && fits(row)) {
             header_ = lines[i];
             return i;
         }
@@ -251,6 +271,7 @@ void TextTable::take_rows(const std::vector<Line>& lines, std::size_t begin) {
     for (std::size_t i = end_ = begin; i < lines.size(); ++i) {
         const Line& line = lines[i];
         if (line.text[0] == '#') continue;  // between rows; before the next table part of its head
+        if (dialect_.separator == '|' && is_rule(line.text)) continue;
         if (!begins_with_number(line.text) && !(i == begin && is_units(line))) {
             const Cells row = cells(line);
             const bool says = line.text.find_first_of(":=") != std::string_view::npos;
@@ -265,14 +286,17 @@ void TextTable::take_rows(const std::vector<Line>& lines, std::size_t begin) {
     end_ = lines.size();
 }
 
-/// A line with units only below the names: "s;mm;mm".
-void TextTable::take_units() {
-    if (rows_.empty() || !is_units(rows_.front())) return;
-    const Cells names = cells(rows_.front());
-    if (names.size() < columns_.size()) return;
-    for (std::size_t k = 0; k < columns_.size(); ++k) {
+void TextTable::take_units(const Cells& names) {
+    for (std::size_t k = 0; k < std::min(names.size(), columns_.size()); ++k) {
         if (const std::string unit = unit_in(names[k]); find_unit(unit)) columns_[k].unit = unit;
     }
+}
+
+/// A line with units only below the names: "s;mm;mm".
+void TextTable::take_units_of_first_row() {
+    const Cells names = cells(rows_.front());
+    if (names.size() < columns_.size()) return;
+    take_units(names);
     rows_.erase(rows_.begin());
 }
 
@@ -328,29 +352,6 @@ void TextTable::fail(std::size_t i, std::size_t column, const std::string& messa
     Cells row;
     read(i, row);
     line(i).fail(message, row[column].column);
-}
-
-std::vector<TextTable> tables_of(std::string_view text, const std::string& path,
-                                 const std::string& told, std::vector<std::string>& notes) {
-    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-    const std::vector<Line> lines = lines_of(text);
-    if (lines.empty()) throw InputError("the file is empty", {path, 1, 1});
-    std::vector<records::TableLine> sample;
-    for (std::size_t i = 0; i < std::min(lines.size(), sample_lines); ++i)
-        sample.push_back({lines[i].text, lines[i].number, path});
-    const Dialect dialect = dialect_of(sample);
-    std::vector<TextTable> tables;
-    for (std::size_t begin = 0; begin < lines.size(); begin = tables.back().end()) {
-        TextTable table(lines, begin, path, dialect, told);
-        if (table.size() == 0) {
-            notes.push_back(fmt::format("{}: the lines from {} on, after the table, are not used",
-                                        path, lines[begin].number));
-            break;
-        }
-        tables.push_back(std::move(table));
-        if (tables.size() > 1) tables.back().inherit(tables[tables.size() - 2].head());
-    }
-    return tables;
 }
 
 }  // namespace trunnion::imports

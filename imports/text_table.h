@@ -48,6 +48,9 @@ class TextTable {
     /// "; between the columns, decimal comma"
     std::string dialect_words() const;
 
+    /// The headings above the table, the nearest first: "### Data", "## Results".
+    const std::vector<Line>& headings() const { return headings_; }
+
     std::size_t size() const { return rows_.size(); }
     std::size_t end() const { return end_; }  ///< index of the first line after the table
     /// Cells of row `i`; throws InputError when their number differs from the header.
@@ -80,21 +83,18 @@ class TextTable {
     void read_header(const std::vector<Line>& lines, std::size_t at);
     void read_head(const std::vector<Line>& lines, std::size_t begin, std::size_t end);
     void take_rows(const std::vector<Line>& lines, std::size_t begin);
-    void take_units();
+    void take_units(const std::vector<records::TableCell>& names);
+    void take_units_of_first_row();
+    bool fits(const std::vector<records::TableCell>& row) const;
 
     std::string path_;
     Dialect dialect_;
     std::vector<TextColumn> columns_;
     Head head_;
+    std::vector<Line> headings_;
     std::vector<Line> rows_;
     Line header_;
     std::size_t end_ = 0;
 };
-
-/// All tables of a file in order; head lines of a table also apply to the following ones. `told`:
-/// as for TextTable. Throws InputError (with position) for a text without a table. The text must
-/// outlive them. `notes` gets a line for text after the last table.
-std::vector<TextTable> tables_of(std::string_view text, const std::string& path,
-                                 const std::string& told, std::vector<std::string>& notes);
 
 }  // namespace trunnion::imports

@@ -40,9 +40,13 @@ int sign_of(const std::string& word) {
 /// Words that may stand beside the direction.
 bool beside(const std::string& word) {
     static const std::set<std::string> words{
-        "data",  "direction", "richtung", "run",      "runs",    "pass",    "passes",
-        "table", "the",       "in",       "of",       "towards", "to",      "travel",
-        "axis",  "test",      "approach", "movement", "motion",  "messung", "measurement"};
+        "data",     "direction", "richtung",    "run",         "runs",     "pass",
+        "passes",   "table",     "the",         "in",          "of",       "towards",
+        "to",       "travel",    "axis",        "test",        "approach", "movement",
+        "motion",   "messung",   "measurement", "tests",       "sequence", "measurements",
+        "cycle",    "cycles",    "scan",        "sweep",       "series",   "sequences",
+        "readings", "order",     "messreihe",   "reihenfolge", "folge",    "lauf",
+        "fahrt"};
     return words.contains(word);
 }
 
@@ -57,6 +61,10 @@ bool is_clear(const std::string& word) {
                                              "negative",
                                              "positiv",
                                              "negativ",
+                                             "ascending",
+                                             "descending",
+                                             "fwd",
+                                             "bwd",
                                              "vorwaerts",
                                              "rueckwaerts",
                                              "vorw\xC3\xA4rts",
@@ -69,8 +77,9 @@ bool is_direction(const std::string& word) {
     return word == "direction" || word == "richtung";
 }
 bool is_travel(const std::string& word) {
-    static const std::set<std::string> words{"pass",   "run",   "travel", "approach", "movement",
-                                             "motion", "sweep", "stroke", "lauf",     "fahrt"};
+    static const std::set<std::string> words{"pass",     "run",   "travel", "approach", "movement",
+                                             "motion",   "sweep", "stroke", "lauf",     "fahrt",
+                                             "sequence", "scan",  "series", "messreihe"};
     return words.contains(word);
 }
 

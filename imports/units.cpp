@@ -75,6 +75,7 @@ const std::map<std::string, Unit, std::less<>>& units() {
         {"sec", {Q::time, 1.0}},
         {"ms", {Q::time, 1e-3}},
         {"us", {Q::time, 1e-6}},
+        {"ns", {Q::time, 1e-9}},
         {"min", {Q::time, minute}},
         {"h", {Q::time, 3600.0}},
         {"mm/s", {Q::speed, 1.0}},

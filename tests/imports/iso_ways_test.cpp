@@ -88,7 +88,7 @@ TEST_CASE("tables of other targets, sessions or one direction stay apart", "[imp
     const setup::Setup setup = import_bench::setup();
     const std::string first = "target [mm],1+ [um]\n0,0\n100,1\n";
     for (const char* second :
-         {"target [mm],1+ [um]\n0,0\n100,1\n", "target [mm],1- [um]\n0,0\n150,1\n",
+         {"target [mm],1+ [um]\n0,0\n100,1.2\n", "target [mm],1- [um]\n0,0\n150,1\n",
           "Date: 2024-03-02\ntarget [mm],1- [um]\n0,0\n100,1\n"}) {
         INFO(second);
         const auto rows = read_rows(setup, {iso, first + second, {"axis=X"}, ""});

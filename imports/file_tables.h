@@ -1,0 +1,21 @@
+// The tables of a file.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "imports/text_table.h"
+
+namespace trunnion::imports {
+
+/// All tables of a file in order; head lines of a table also apply to the following ones. `told`:
+/// as for TextTable. Throws InputError (with position) for a text without a table. The text must
+/// outlive them. `notes` gets a line for text after the last table.
+std::vector<TextTable> tables_of(std::string_view text, const std::string& path,
+                                 const std::string& told, std::vector<std::string>& notes);
+/// The same of lines that keep their numbers.
+std::vector<TextTable> tables_of(const std::vector<TextTable::Line>& lines, const std::string& path,
+                                 const std::string& told, std::vector<std::string>& notes);
+
+}  // namespace trunnion::imports
