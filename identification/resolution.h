@@ -16,8 +16,8 @@ double decimal_step(const std::vector<double>& values);
 /// Raises the standard deviation (mm, rad) of rows whose noise nobody states to 1 / sqrt(12) of the
 /// last digit of their values, in mm or degrees. Of a servo log the digit is that of commanded and
 /// actual positions, and counts beside what the setup states of the encoder, too: logs are kept
-/// with fewer digits than encoders have. Each device and feature has a digit of its own; of a servo log each number of digits
-/// before the decimal point, because logs keep so many digits.
+/// with fewer digits than encoders have. Each device and feature has a digit of its own; of a servo
+/// log each number of digits before the decimal point, because logs keep so many digits.
 void add_rounding(const setup::Setup& setup, const records::ReadingTable& table,
                   const emulator::Replay& replay, Eigen::VectorXd& sigma_mm);
 

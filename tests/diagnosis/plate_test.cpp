@@ -7,6 +7,7 @@
 #include "diagnosis/diagnosis.h"
 #include "effects/settings.h"
 #include "emulator/replay.h"
+#include "tests/support/diagnosed.h"
 #include "tests/support/said.h"
 
 namespace trunnion {
@@ -121,6 +122,64 @@ TEST_CASE("an error over a plane is located at the product of two positions", "[
         REQUIRE_FALSE(d.causes.empty());
         CHECK(d.causes.front().effect == "unknown");
         CHECK_THAT(d.causes.front().what, Catch::Contains("X and Y"));
+    }
+}
+
+// Through one tool length the angles of Y are its scale and its squareness: other names of the
+// same.
+TEST_CASE("angles seen through one arm have the scale and the squareness as rivals",
+          "[diagnosis]") {
+    const setup::Setup setup = bench();
+    setup::Setup real = setup;
+    real.effects.push_back({"Y.angular", {{"EAY_p1_rad", {50e-6}}, {"EBY_p1_rad", {70e-6}}}});
+    for (unsigned seed = 1; seed <= 4; ++seed) {
+        records::ReadingTable read =
+            emulator::predicted(real, grid(), effects::active_models(real));
+        std::mt19937_64 engine(seed);
+        std::normal_distribution<double> noise(0.0, 1.5e-3);
+        for (records::Reading& row : read.rows) *row.value_mm += noise(engine);
+        const diagnosis::Diagnosis d = diagnosed(setup, read);
+        INFO(seed << ": " << said(d));
+        for (const diagnosis::Cause& c : d.causes) {
+            if (c.effect != "Y.angular") continue;
+            CHECK(c.probability < 0.9);
+            for (const char* name : {"Y.scale", "XY.squareness"})
+                CHECK(std::find(c.rivals.begin(), c.rivals.end(), name) != c.rivals.end());
+        }
+        CHECK(d.explained > 0.8);
+    }
+}
+
+// The heights of a bed, few points and much noise: as tables over X they hold at these places only,
+// as a bow and a twist everywhere.
+TEST_CASE("where the tables of a few points fail elsewhere, their textbook forms are written",
+          "[diagnosis]") {
+    const setup::Setup setup = bench();
+    const auto bed = [](int side, double pitch_mm, double noise_mm, unsigned seed) {
+        records::ReadingTable table = grid();
+        std::mt19937_64 engine(seed);
+        std::normal_distribution<double> noise(0.0, noise_mm);
+        records::Reading row = table.rows.front();
+        table.rows.clear();
+        row.session = "";
+        row.direction_M = Vector3::UnitZ();
+        for (int k = 0; k < side * side; ++k) {
+            row.index = k;
+            row.time_s = 10.0 * k;
+            row.commanded[Axis::X] = pitch_mm * (k % side);
+            row.commanded[Axis::Y] = pitch_mm * (k / side);
+            const double x = row.commanded[Axis::X] / 100.0 - 1.0,
+                         y = row.commanded[Axis::Y] / 100.0 - 1.0;
+            row.value_mm = 0.1 * x * x + 0.08 * x * y + noise(engine);
+            table.rows.push_back(row);
+        }
+        return table;
+    };
+    for (unsigned seed = 1; seed <= 5; ++seed) {
+        const diagnosis::Diagnosis d = diagnosed(setup, bed(5, 50.0, 0.015, seed));
+        const records::ReadingTable fresh = bed(9, 25.0, 0.0, 99);
+        INFO(seed << ": " << said(d));
+        CHECK(left_beside(d.setup, fresh) < 0.5 * left_beside(setup, fresh));
     }
 }
 

@@ -8,6 +8,7 @@
 #include "diagnosis/diagnosis.h"
 #include "effects/settings.h"
 #include "emulator/replay.h"
+#include "tests/support/diagnosed.h"
 #include "tests/support/said.h"
 
 namespace trunnion {
@@ -215,6 +216,37 @@ TEST_CASE("the lag of a loop is mismatch and contour: no spike, no gain beside i
             CHECK(d.causes[1].parameters[axis].value == Approx(lag * lag - square).epsilon(0.02));
         }
         CHECK(d.after_rms_um < 0.5);
+    }
+}
+
+// A scope that caught one move: most of it lies in one part of the log.
+TEST_CASE("the lag of a single move is written, beside the noise that the axis has at rest",
+          "[diagnosis]") {
+    std::vector<std::string> notes;
+    const setup::Setup usual = setup::parse_setup(
+        "[machine]\nname = \"m\"\nchain = \"w b X Y Z t\"\n[model]\nmodelled = []\n", "s.toml",
+        notes);
+    setup::Setup real = usual;
+    real.effects.push_back({"servo.mismatch", {{"tau_x_s", {0.03}}}});
+    const auto move = [&](double length_mm, double rest_s, unsigned seed) {
+        records::ReadingTable table = log("scope", 140, 0.0);
+        for (records::Reading& row : table.rows) {
+            const double part = std::clamp((row.time_s - rest_s) / 0.6, 0.0, 1.0);
+            row.commanded[Axis::X] = length_mm * (part - std::sin(2.0 * pi * part) / (2.0 * pi));
+        }
+        records::ReadingTable read = emulator::predicted(real, table, effects::active_models(real));
+        std::mt19937_64 engine(seed);
+        std::normal_distribution<double> noise(0.0, 0.07);
+        for (records::Reading& row : read.rows) *row.value_mm += noise(engine);
+        return read;
+    };
+    for (unsigned seed = 1; seed <= 3; ++seed) {
+        const diagnosis::Diagnosis d = diagnosed(usual, move(60.0, 0.3, seed));
+        INFO(seed << ": " << said(d));
+        CHECK(d.noise_um.value() == Approx(70.0).epsilon(0.3));
+        const records::ReadingTable other = move(-25.0, 0.5, 99);
+        CHECK(left_beside(d.setup, other) < 0.1);
+        CHECK(left_beside(usual, other) > 0.5);
     }
 }
 

@@ -140,6 +140,42 @@ TEST_CASE("the noise of a laser test is that of its own repeats", "[diagnosis][s
     CHECK(once.noise.source == diagnosis::NoiseSource::assumed);
 }
 
+// What a setup states is the noise of the laser; a stage that does not come back to the same place
+// scatters more.
+TEST_CASE("repeats measure the noise whatever is stated, and more scatter than that is a gap",
+          "[diagnosis][stage]") {
+    const setup::Setup stated = stage("noise_um = { linear = 0.4 }\n");
+    Truth truth = rough(5, 1);
+    truth.gap_mm = 0.05;
+    truth.noise_mm = 0.02;
+    const diagnosis::Diagnosis rough_one = diagnosis::diagnose(stated, laser(truth, 5, 5));
+    INFO(said(rough_one));
+    CHECK(rough_one.noise.source == diagnosis::NoiseSource::repeats);
+    CHECK(rough_one.noise_um.value() == Approx(20.0).epsilon(0.3));
+    REQUIRE(cause(rough_one, "X.backlash", false));
+    CHECK(cause(rough_one, "X.backlash", false)->probability > 0.8);
+    CHECK_FALSE(rough_one.only_scatter);
+
+    Truth exact{truth.at_mm, std::vector<double>(5, 0.0), 0.0, 0.02};
+    for (const double noise_mm : {0.02, 0.0005}) {
+        exact.noise_mm = noise_mm;
+        const diagnosis::Diagnosis d = diagnosis::diagnose(stated, laser(exact, 5, 6));
+        INFO(noise_mm);
+        INFO(said(d));
+        const bool scatters = noise_mm > 0.01;
+        CHECK(d.only_scatter == scatters);
+        CHECK((d.verdict == diagnosis::Verdict::no_gap) == !scatters);
+        if (!scatters) continue;
+        REQUIRE(d.causes.size() == 1);
+        CHECK_FALSE(d.causes.front().known);
+        CHECK(d.causes.front().probability > 0.95);
+        CHECK(d.verdict == diagnosis::Verdict::unexplained);
+        // Where nothing is stated, it is the noise.
+        CHECK(diagnosis::diagnose(stage(), laser(exact, 5, 6)).verdict ==
+              diagnosis::Verdict::no_gap);
+    }
+}
+
 TEST_CASE("readings held out have a zero of their own", "[diagnosis][stage]") {
     const Truth truth = rough(9, 4);
     const records::ReadingTable fitted = laser(truth, 4, 11);
