@@ -186,13 +186,22 @@ const ColumnGroup& fullest_form(const Design& design, std::size_t rival) {
 
 std::vector<AmbiguousPair> pairs_of(const Outcome& f, const std::vector<Claim>& claims,
                                     const Solution& solution) {
+    constexpr std::size_t most = 2;  // of each claim
     std::vector<AmbiguousPair> pairs;
-    for (const Claim& claim : claims)
-        for (std::size_t k = 0; k < std::min<std::size_t>(2, claim.rival_groups.size()); ++k)
-            pairs.push_back({&f.design.group(f.model.members[claim.position]),
+    for (const Claim& claim : claims) {
+        const ColumnGroup& own = f.design.group(f.model.members[claim.position]);
+        std::size_t count = 0;
+        for (const std::size_t rival : claim.rival_groups) {
+            const ColumnGroup& other = fullest_form(f.design, rival);
+            // A free form without a family has the name of its own form as a rival.
+            if (other.name == own.name) continue;
+            if (count++ == most) break;
+            pairs.push_back({&own,
                              solution.mean.segment(solution.first[claim.position],
                                                    solution.size[claim.position]),
-                             &fullest_form(f.design, claim.rival_groups[k])});
+                             &other});
+        }
+    }
     return pairs;
 }
 

@@ -9,6 +9,7 @@
 #include "base/alarm.h"
 #include "base/rounded.h"
 #include "diagnosis/machine_jump.h"
+#include "identification/index_errors.h"
 
 namespace trunnion::diagnosis {
 namespace {
@@ -78,7 +79,7 @@ Prepared::Prepared(const setup::Setup& setup, const records::ReadingTable& readi
 }
 
 Prepared prepare(const setup::Setup& setup, const records::ReadingTable& table) {
-    return Prepared(setup, table);
+    return Prepared(identification::with_index_errors(setup, table), table);
 }
 
 void free_zeros(const emulator::Replay& replay, const Eigen::VectorXd& sigma_mm,

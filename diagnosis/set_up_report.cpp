@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "diagnosis/usual_zero.h"
+#include "identification/index_errors.h"
 #include "identification/set_up_words.h"
 
 namespace trunnion::diagnosis {
@@ -41,6 +42,8 @@ void describe_set_up(const Outcome& f, const Solution& solution, Diagnosis& d) {
         d.set_up.push_back(std::move(p));
     }
     d.set_up_words = identification::set_up_words(d.setup, d.set_up);
+    for (std::string& sentence : identification::index_words(d.setup))
+        d.set_up_words.push_back(std::move(sentence));
     for (identification::FitParameter& p : zero_scatter_of(f)) d.set_up.push_back(std::move(p));
 }
 

@@ -76,7 +76,18 @@ void hide_from_encoders(Effect& effect) {
 
 namespace {
 
-/// Of a machine the spindle; of an arm the mean of its targets, or without one its last axis.
+/// The line of sight of two crossing axes, perpendicular to both at zero: of its two ends the one
+/// that a positive turn raises.
+Vector3 line_of_sight(const kinematics::Chain& chain, const Vector3& otherwise) {
+    if (chain.tool.size() < 2) return otherwise;
+    const Vector3 last = chain.tool.back().direction,
+                  across = chain.tool[chain.tool.size() - 2].direction.cross(last);
+    if (across.norm() < 1e-6) return otherwise;
+    return last.cross(across).z() < 0.0 ? -across.normalized() : across.normalized();
+}
+
+/// Of a machine the spindle; of an arm the mean of its targets, or without one its last axis; of a
+/// telescope, whose target is on the last axis, the line of sight.
 CarriedTool carried_tool(const setup::Setup& setup) {
     CarriedTool tool;
     if (!setup::is_arm(setup.machine.chain)) return tool;
@@ -91,6 +102,8 @@ CarriedTool carried_tool(const setup::Setup& setup) {
     tool.centre_S_mm = count > 0.0 ? Vector3(sum_mm / count) : last_mm;
     if (const Vector3 reach_mm = tool.centre_S_mm - last_mm; reach_mm.norm() > 1e-6)
         tool.along_S = reach_mm.normalized();
+    else
+        tool.along_S = line_of_sight(setup.machine.chain, tool.along_S);
     return tool;
 }
 

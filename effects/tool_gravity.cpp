@@ -110,8 +110,8 @@ Effect chain_flexure(const kinematics::Chain& chain, const CarriedTool& tool) {
         "weight of head, tube or spindle beyond its last axis",
         "compensate by the angle to the plumb line; balance or stiffen the head",
         "what the last rotary axis of the tool side carries tilts by droop_rad * n x g; n: "
-        "from the spindle to the tool, of an arm from its last axis to the target; g: downwards, "
-        "unit vectors",
+        "from the spindle to the tool, of an arm from its last axis to the target, of a telescope "
+        "(target on its last axis) the line of sight; g: downwards, unit vectors",
         {{"droop_rad", "rad", 50e-6, -1, {}, true}},
         [chain, tool](const AxisSample& sample, const emulator::Contact&,
                       std::span<const double> value, kinematics::Perturbation& out) {

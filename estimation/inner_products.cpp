@@ -67,8 +67,7 @@ inline __attribute__((always_inline)) void add_eight(Columns a, Columns b, Index
         }
         const Part parts[tall * broad] = {s00, s10, s20, s30, s01, s11, s21, s31};
         for (Index n = 0; n < tall * broad; ++n)
-            std::memcpy(reinterpret_cast<char*>(&sums[n]) + from * sizeof(double), &parts[n],
-                        sizeof(Part));
+            std::memcpy(reinterpret_cast<double*>(&sums[n]) + from, &parts[n], sizeof(Part));
     }
     double rest[tall * broad] = {};
     for (Index k = whole; k < count; ++k)

@@ -8,6 +8,8 @@
 
 #include "base/alarm.h"
 #include "effects/settings.h"
+#include "estimation/quantiles.h"
+#include "identification/index_errors.h"
 #include "identification/keys.h"
 #include "identification/needed_terms.h"
 #include "identification/set_up_words.h"
@@ -187,11 +189,69 @@ void add_keys(const effects::Catalogue& catalogue, const std::vector<std::string
                     {name, p.name, p.unit, -1, p.typical, p.typical, std::nan(""), 0.0, 0.0});
 }
 
+/// Typical residual relative to the noise: about 1 where nothing is missing in the fit. A few
+/// readings that are far off do not count.
+double misfit_of(const BaseModel& base, int dof) {
+    const Eigen::VectorXd size = base.residual_mm.cwiseQuotient(base.sigma_mm);
+    const double typical = estimation::robust_deviation({size.data(), size.data() + size.size()});
+    return typical * std::sqrt(static_cast<double>(size.size()) / std::max(1, dof));
+}
+
+/// Where nobody states the noise, the residual is what is known of it: the uncertainties follow.
+/// Beside a stated noise a large residual shows that the fit lacks something.
+void take_misfit(const BaseModel& base, Identification& result) {
+    constexpr double worth_a_note = 2.0;
+    const double misfit = misfit_of(base, result.dof);
+    if (!base.noise_given && misfit > 1.0) {
+        for (FitParameter& p : result.parameters) p.sigma *= misfit;
+        result.covariance *= misfit * misfit;
+    }
+    if (misfit < worth_a_note) return;
+    result.notes.push_back(
+        base.noise_given
+            ? fmt::format("the residual is {:.0f} times the stated noise: something is missing in "
+                          "this fit, and its values are less certain than their sigma says "
+                          "(trunnion diagnose looks for it)",
+                          misfit)
+            : fmt::format("the residual is {:.0f} times the noise that is usual, and nothing "
+                          "states another: sigma is multiplied by it",
+                          misfit));
+}
+
+/// The effects of a fit: those asked for, else those of the setup, and the index of a telescope.
+std::vector<std::string> fitted_effects(const setup::Setup& setup, std::vector<std::string> asked) {
+    std::vector<std::string> effects = asked.empty() ? setup.model.modelled : std::move(asked);
+    if (const std::string index = index_effect(setup);
+        std::find(setup.model.modelled.begin(), setup.model.modelled.end(), index) !=
+            setup.model.modelled.end() &&
+        std::find(effects.begin(), effects.end(), index) == effects.end())
+        effects.push_back(index);
+    return effects;
+}
+
+/// Sizes of the residual; throws InputError where nothing is left to tell the uncertainty.
+void describe_fit(const records::ReadingTable& table, const BaseModel& base,
+                  Identification& result) {
+    const double micro = records::micro_per_one(table);
+    result.rms_before_um = micro * rms_of(base.start_residual_mm);
+    result.rms_after_um = micro * rms_of(base.residual_mm);
+    result.dof = static_cast<int>(base.residual_mm.size()) - base.rank;
+    if (result.dof < 1)
+        throw InputError(
+            fmt::format("{} readings are too few to determine {} unknowns and their uncertainty",
+                        base.residual_mm.size(), base.rank),
+            {table.path, 0, 0});
+    result.set_up_words = set_up_words(base.setup, base.parameters);
+    for (std::string& sentence : index_words(base.setup))
+        result.set_up_words.push_back(std::move(sentence));
+}
+
 }  // namespace
 
-Identification identify(const setup::Setup& setup, const records::ReadingTable& table,
+Identification identify(const setup::Setup& given, const records::ReadingTable& table,
                         std::vector<std::string> effects, const std::function<bool()>& go_on) {
-    if (effects.empty()) effects = setup.model.modelled;
+    const setup::Setup setup = with_index_errors(given, table);
+    effects = fitted_effects(setup, std::move(effects));
     emulator::Replay replay(setup, table);
     if (replay.size() < 2)
         throw InputError("fewer than two readings with a device", {table.path, 0, 0});
@@ -232,19 +292,11 @@ Identification identify(const setup::Setup& setup, const records::ReadingTable& 
     result.inseparable = base.inseparable;
     result.covariance = base.covariance;
     result.angles = records::only_angles(table);
-    const double micro = records::micro_per_one(table);
-    result.rms_before_um = micro * rms_of(base.start_residual_mm);
-    result.rms_after_um = micro * rms_of(base.residual_mm);
-    result.dof = static_cast<int>(replay.size()) - base.rank;
-    if (result.dof < 1)
-        throw InputError(
-            fmt::format("{} readings are too few to determine {} unknowns and their uncertainty",
-                        replay.size(), base.rank),
-            {table.path, 0, 0});
-    result.set_up_words = set_up_words(base.setup, base.parameters);
+    describe_fit(table, base, result);
     result.not_searched = std::move(not_searched);
     result.notes = std::move(notes);
     result.notes.insert(result.notes.end(), base.notes.begin(), base.notes.end());
+    take_misfit(base, result);
     result.setup = std::move(base.setup);
     return result;
 }

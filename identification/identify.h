@@ -27,7 +27,9 @@ struct Identification {
 
 /// Fits the named effects (none: those of [model].modelled) and the free set-up quantities to all
 /// device rows. Keys of effects (pitch, time constant) are searched, each as long as `go_on`
-/// (empty: always) says true; the values are fitted at the keys found until then. Throws InputError
+/// (empty: always) says true; the values are fitted at the keys found until then. Uncertainties are
+/// those of the noise of the readings; where nothing states it they follow the residual, if that is
+/// larger, and a residual of twice the noise gets a note. Throws InputError
 /// as fit_base.
 Identification identify(const setup::Setup& setup, const records::ReadingTable& table,
                         std::vector<std::string> effects, const std::function<bool()>& go_on = {});

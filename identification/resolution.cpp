@@ -96,7 +96,8 @@ void add_rest_scatter(const setup::Setup& setup, const records::ReadingTable& ta
             continue;
         logs[{row.test, row.feature}].rows.push_back(i);
     }
-    for (auto& [of, log] : logs) {
+    for (auto& entry : logs) {
+        Log& log = entry.second;
         const auto at = [&](std::size_t k) -> const records::Reading& {
             return table.rows[replay.table_row(log.rows[k])];
         };

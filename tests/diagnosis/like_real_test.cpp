@@ -1,5 +1,6 @@
 // What diagnose says of files in the shapes of real exports (tests/imports/like_real, made by code
 // that shares nothing with the product): the cause that was put in, and nothing false beside it.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <set>
@@ -135,6 +136,41 @@ TEST_CASE("servo logs, plates and a circle: the effect that was put in", "[diagn
     CHECK(std::abs(value_of(bar, "XY.squareness", "angle_rad")) == Approx(80e-6).epsilon(0.05));
     CHECK(value_of(bar, "Y.backlash", "gap_mm") == Approx(6e-3).epsilon(0.05));
     check_nothing_false(bar, {"XY.squareness", "Y.backlash"});
+}
+
+// Stars read the index of the azimuth times the cosine of the altitude, so that no zero of a test
+// takes it: it is set-up nevertheless, whatever its size.
+TEST_CASE("the index of the azimuth is set-up, and the lean of its axis the cause",
+          "[diagnosis][like_real]") {
+    std::vector<std::string> notes;
+    const setup::Setup setup = setup::load_setup(folder + "mount.toml", notes);
+    const std::vector<imports::ImportFile> files{
+        {"telescope.csv", read_file(folder + "telescope.csv")}};
+    const imports::Imported imported =
+        imports::import_readings(ImportKind::pointing, {setup, files, imports::Facts({}), {}});
+    records::ReadingTable table =
+        records::parse_readings(imported.readings, "r.csv", notes, setup.machine.chain.names());
+    constexpr double index_rad = 1.2e-3;
+    const Axis altitude = *setup.machine.chain.names().find("Alt");
+    for (records::Reading& row : table.rows)
+        if (row.value_mm && row.test == "across_Alt")
+            *row.value_mm += index_rad * std::cos(row.commanded[altitude]);
+    diagnosis::DiagnosisOptions options;
+    options.plan_next = false;
+    const diagnosis::Diagnosis d = diagnosis::diagnose(setup, table, options);
+    INFO(said(d));
+    REQUIRE(!d.causes.empty());
+    CHECK(d.causes.front().effect == "location");
+    check_nothing_false(d, {"location", "chain.collimation"});
+    const bool told = std::any_of(
+        d.set_up_words.begin(), d.set_up_words.end(),
+        [](const std::string& s) { return s.find("the index of Az is") != std::string::npos; });
+    CHECK(told);
+    // The sign of the reading follows the line of sight, which is against that of the tube here.
+    double found_rad = 0.0;
+    for (const setup::EffectSetting& e : d.setup.effects)
+        if (e.name == "Az.zero") found_rad = e.parameters.at("offset_rad").front();
+    CHECK(std::abs(found_rad) == Approx(index_rad).epsilon(0.1));
 }
 
 }  // namespace trunnion

@@ -49,4 +49,26 @@ TEST_CASE("the weight of a target turns the joint that carries it, wherever M be
     }
 }
 
+// The tube is where the light comes from: level at altitude 0, upright at the zenith.
+TEST_CASE("the tube of a telescope droops with the cosine of the altitude") {
+    for (const char* azimuth : {"[0, 0, -1]", "[0, 0, 1]"}) {
+        std::vector<std::string> notes;
+        const setup::Setup setup = setup::parse_setup(
+            std::string("[machine]\nname = \"t\"\nchain = \"w b J1 J2 t\"\n"
+                        "[machine.axis.J1]\ndirection = ") +
+                azimuth +
+                "\npoint_mm = [0, 0, 0]\n[machine.axis.J2]\ndirection = [1, 0, 0]\n"
+                "point_mm = [0, 0, 0]\n"
+                "[[artefact]]\nname = \"Star\"\nkind = \"target\"\ntool_mm = [0, 0, 0]\n",
+            "s.toml", notes);
+        const Axis last = setup.machine.chain.tool[1].axis;
+        for (const double q : {0.0, 0.6, 1.4}) {
+            // A positive turn about +X raises the tube along +Y: the ground turns it back.
+            const auto bow = at_level(setup, effects::EffectKind::chain_flexure, {1e-3}, q);
+            const Vector3 tilt_rad = bow.motion[index_of(last)].tilt_rad;
+            CHECK((tilt_rad - Vector3(-1e-3 * std::cos(q), 0.0, 0.0)).norm() < 1e-12);
+        }
+    }
+}
+
 }  // namespace trunnion

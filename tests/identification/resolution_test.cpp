@@ -149,4 +149,43 @@ TEST_CASE("actual positions in another unit or of another column are refused", "
     CHECK(identification::identify(meant, table, {}).set_up_words.size() == 1);
 }
 
+TEST_CASE("a fit that lacks something is less certain than its noise says", "[identification]") {
+    records::ReadingTable table = log();
+    std::uint64_t state = 7;
+    for (records::Reading& row : table.rows) {
+        state = state * 6364136223846793005u + 1442695040888963407u;
+        const double even = static_cast<double>(state >> 11) / 9007199254740992.0 - 0.5;
+        const double slow = 0.7 * row.time_s, fast = 3.1 * row.time_s;
+        row.commanded[Axis::X] = 100.0 + 50.0 * std::sin(slow) + 9.0 * std::sin(fast) +
+                                 1e-7 * row.index;  // no few digits
+        row.velocity_mm_s = 35.0 * std::cos(slow) + 27.9 * std::cos(fast);
+        row.value_mm = -0.009 * *row.velocity_mm_s + 0.0034641 * even;  // 1 um
+    }
+    records::ReadingTable bent = table;
+    for (records::Reading& row : bent.rows)
+        *row.value_mm += 0.04 * std::sin(0.9 * row.commanded[Axis::X]);
+    const auto sigma_of = [](const identification::Identification& fit) {
+        for (const identification::FitParameter& p : fit.parameters)
+            if (p.name == "tau_x_s") return p.sigma;
+        return 0.0;
+    };
+    const auto fit = [&](const records::ReadingTable& t, bool stated) {
+        setup::Setup setup = machine();
+        if (stated) setup.model.noise_um["axis"] = 1.0;
+        return identification::identify(setup, t, {"servo.mismatch"});
+    };
+    for (const bool stated : {false, true}) {
+        const auto right = fit(table, stated), wrong = fit(bent, stated);
+        CHECK(right.notes.empty());
+        REQUIRE(wrong.notes.size() == 1);
+        CHECK_THAT(wrong.notes.front(), Catch::Contains("the residual is"));
+        // Nobody states the noise: it is that of the residual, about 28 um.
+        const double ratio = sigma_of(wrong) / sigma_of(right);
+        if (stated)
+            CHECK(ratio == Approx(1.0));
+        else
+            CHECK(ratio == Approx(33.0).epsilon(0.4));
+    }
+}
+
 }  // namespace trunnion
