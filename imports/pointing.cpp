@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <deque>
 
+#include "imports/file_tables.h"
 #include "imports/log_columns.h"
 #include "imports/row_writer.h"
+#include "imports/tpoint.h"
 
 namespace trunnion::imports {
 namespace {
@@ -154,11 +157,27 @@ void import_sights(const TextTable& table, const ImportRequest& request, RowWrit
     for (std::string& note : log_notes(table, log)) result.notes.push_back(std::move(note));
 }
 
+/// The tables of a file; a TPOINT run is one, kept in `runs`.
+std::vector<TextTable> tables_in(const ImportFile& file, const ImportRequest& request,
+                                 std::deque<TpointTable>& runs, std::vector<std::string>& notes) {
+    const std::string told = request.facts.text("columns");
+    if (!told.empty() || !is_tpoint(file.text)) return tables_of(file.text, file.path, told, notes);
+    runs.emplace_back(file, request.setup);
+    notes.push_back(file.path +
+                    ": a TPOINT run: the encoders are the commanded angles, the star is where the "
+                    "telescope points");
+    return tables_of(runs.back().lines(), file.path, "", notes);
+}
+
 }  // namespace
 
 Imported import_pointing(const ImportRequest& request) {
     Imported result;
-    const std::vector<TextTable> tables = tables_of(request, result.notes);
+    std::deque<TpointTable> runs;  // tables refer to them
+    std::vector<TextTable> tables;
+    for (const ImportFile& file : request.files)
+        for (TextTable& table : tables_in(file, request, runs, result.notes))
+            tables.push_back(std::move(table));
     const bool sigma = std::any_of(tables.begin(), tables.end(),
                                    [](const TextTable& t) { return sigma_column(t).has_value(); });
     std::vector<std::string> columns;

@@ -273,6 +273,11 @@ Imported import_points(const ImportRequest& request) {
     for (const ImportFile& file : request.files)
         import_file_of_points(file, request, {rows, counts, result});
     check_poses(request.setup, counts);
+    if (request.files.size() > 1 && rows.session().empty())
+        result.notes.push_back(
+            fmt::format("{} files are one set-up: the part has one pose in all of them; if it was "
+                        "mounted again in between, --with session=each gives each file its own",
+                        request.files.size()));
     result.readings = rows.take();
     return result;
 }

@@ -63,6 +63,7 @@ void RowWriter::begin_file(const std::string& path, const Facts& facts) {
     path_ = path;
     name_ = file_name_of(path_);
     session_ = facts.text("session");
+    if (session_ == "each") session_ = name_.substr(0, name_.find_last_of('.'));
     begins_ = true;
     dated_ = false;
 }

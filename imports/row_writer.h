@@ -21,7 +21,8 @@ class RowWriter {
     /// first row.
     void add_column(const std::string& name);
 
-    /// The following rows belong to this file. A clock that restarts at zero continues one minute
+    /// The following rows belong to this file: to the session named by `session=`, with
+    /// `session=each` after the file. A clock that restarts at zero continues one minute
     /// after the last row.
     void begin_file(const std::string& path, const Facts& facts);
     void begin_file(const TextTable& table, const Facts& facts) { begin_file(table.path(), facts); }

@@ -118,3 +118,56 @@ TEST_CASE("points of several targets", "[imports][more]") {
     CHECK(rows[1].commanded[Axis::Z] == Approx(100.0));
     refuses(two_targets(), {points, plain, {}, ""}, "several artefacts", 0);
 }
+
+TEST_CASE("two plates of one day: one pose, or one of each", "[imports][more]") {
+    const setup::Setup setup = import_bench::setup();
+    const std::vector<imports::ImportFile> files{{"plates/first.csv", plain},
+                                                 {"plates/second.csv", plain}};
+    for (const bool each : {false, true}) {
+        std::vector<std::string> told;
+        if (each) told.emplace_back("session=each");
+        const imports::Imported got =
+            imports::import_readings(points, {setup, files, imports::Facts(told), {}});
+        CHECK(has(got.notes, "2 files are one set-up") == !each);
+        std::vector<std::string> notes;
+        const auto table =
+            records::parse_readings(got.readings, "r.csv", notes, setup.machine.chain.names());
+        REQUIRE(!table.rows.empty());
+        CHECK(table.rows.front().session == (each ? "first" : ""));
+        CHECK(table.rows.back().session == (each ? "second" : ""));
+    }
+}
+
+TEST_CASE("a TPOINT run in azimuth and altitude", "[imports][more]") {
+    std::vector<std::string> notes;
+    const setup::Setup mount =
+        setup::load_setup(TRUNNION_SOURCE_DIR "/tests/imports/like_real/mount.toml", notes);
+    const std::string head =
+        "! made by hand\nA night of 2024\n: ALTAZ\n: NODA\n+50 54 0.0 2024 2 17 5.0 960 300 0.6\n";
+    const std::string rows = "10.5 30.25 10.4 30.2\n! a cloud\n200.5 60.5 -159.4 60.4 1.2\n";
+    const Case run{pointing, head + rows + "END\n1 2 3 4\n", {}, ""};
+    const auto got = imported(mount, run);
+    CHECK(has(got.notes, "a TPOINT run"));
+    const auto stars = [&](const Case& c) {
+        return records::parse_readings(imported(mount, c).readings, "r.csv", notes,
+                                       mount.machine.chain.names())
+            .rows;
+    };
+    const auto read = stars(run);
+    const Case table{pointing,
+                     "Az cmd [deg],Alt cmd [deg],Az act [deg],Alt act [deg]\n"
+                     "10.4,30.2,10.5,30.25\n-159.4,60.4,200.5,60.5\n",
+                     {},
+                     ""};
+    const auto expected = stars(table);
+    REQUIRE(read.size() == expected.size());
+    REQUIRE(read.size() == 4);
+    for (std::size_t k = 0; k < read.size(); ++k) {
+        CHECK(*read[k].value_mm == Approx(*expected[k].value_mm));
+        CHECK(read[k].commanded == expected[k].commanded);
+    }
+    CHECK(read.back().source == "f.txt:8");
+    refuses(mount, {pointing, head + "10.5 30.25 10.4\nEND\n", {}, ""}, "four angles", 6);
+    refuses(mount, {pointing, "run\n: EQUAT\n+50 54 0 2024 2 17\nEND\n", {}, ""}, "equatorial", 2);
+    refuses(import_bench::setup(), run, "two rotary axes that carry", 1);
+}
