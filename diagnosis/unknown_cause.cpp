@@ -78,7 +78,8 @@ Cause unknown_cause(const Outcome& f, const Diagnosis& d) {
         cause.probability = std::max(cause.probability.value(), (count + 1.0) / (count + 2.0));
         cause.what = fmt::format(
             "Repeated readings differ {:.0f} times more than is stated of the device, and nothing "
-            "beyond that is seen: the machine does not come back to the same place, or something "
+            "beyond that is certain: the machine does not come back to the same place, or "
+            "something "
             "disturbs the readings",
             f.judgement.scatter);
     } else if (places.empty() && cause.probability < 0.5)

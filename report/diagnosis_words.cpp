@@ -172,7 +172,7 @@ std::string verdict_sentence(const diagnosis::Diagnosis& d) {
                                    size);
             if (d.only_scatter)
                 return fmt::format(
-                    "Repeated readings differ more than is stated; beyond that there is no gap: "
+                    "Repeated readings differ more than is stated; nothing beyond that is certain: "
                     "{}.",
                     size);
             return fmt::format("There is a gap that the catalogue does not explain: {}.", size);
@@ -191,8 +191,8 @@ std::string answer(const diagnosis::Diagnosis& d) {
             spoiled_words(d), size_words(d, d.rms_um), size_words(d, d.noise_um));
     if (d.only_scatter)
         return fmt::format(
-            "Repeated readings differ more than is stated of the device: {} rms. Beyond that "
-            "machine and simulation are alike.",
+            "Repeated readings differ more than is stated of the device: {} rms. Nothing beyond "
+            "that is certain.",
             size_words(d, d.noise_um));
     const std::string size =
         fmt::format("Machine and simulation differ by {} rms; noise alone would make {}. ",

@@ -80,6 +80,23 @@ TEST_CASE("where only readings that were set aside are wrong, no text speaks of 
     CHECK_THAT(report::diagnosis_text(d), Catch::Contains("catalogue does not explain"));
 }
 
+TEST_CASE("where repeats differ more than is stated, no text promises that the rest is alike") {
+    diagnosis::Diagnosis d;
+    d.verdict = diagnosis::Verdict::unexplained;
+    d.only_scatter = true;
+    d.rms_um = 38.0;
+    d.noise_um = 28.0;
+    diagnosis::Cause cause;
+    cause.effect = "unknown";
+    cause.known = false;
+    cause.what = "Repeated readings differ 70 times more than is stated of the device";
+    d.causes.push_back(cause);
+    const std::string text = report::diagnosis_text(d);
+    CHECK_THAT(text, Catch::Contains("Repeated readings differ more than is stated; nothing"));
+    CHECK_THAT(text, !Catch::Contains("after: rms"));
+    CHECK_THAT(report::answer(d), Catch::Contains("28.0 µm rms. Nothing beyond that is certain."));
+}
+
 TEST_CASE("a cause that is no better alone has no shrink of its own") {
     diagnosis::Diagnosis d = with_parameters({});
     d.causes.front().heldout.shrink = -1.64;
