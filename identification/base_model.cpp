@@ -252,8 +252,8 @@ std::string to_string(const Inseparable& group) {
     return text;
 }
 
-RowNoise row_noise(const setup::Setup& setup, const records::ReadingTable& table,
-                   const emulator::Replay& replay) {
+RowNoise stated_noise(const setup::Setup& setup, const records::ReadingTable& table,
+                      const emulator::Replay& replay) {
     RowNoise noise;
     noise.sigma_mm.resize(static_cast<Eigen::Index>(replay.size()));
     for (std::size_t i = 0; i < replay.size(); ++i) {
@@ -262,6 +262,12 @@ RowNoise row_noise(const setup::Setup& setup, const records::ReadingTable& table
         noise.sigma_mm(static_cast<Eigen::Index>(i)) = of_row.sigma_mm;
         noise.given = noise.given && of_row.given;
     }
+    return noise;
+}
+
+RowNoise row_noise(const setup::Setup& setup, const records::ReadingTable& table,
+                   const emulator::Replay& replay) {
+    RowNoise noise = stated_noise(setup, table, replay);
     add_rounding(setup, table, replay, noise.sigma_mm);
     add_rest_scatter(setup, table, replay, noise.sigma_mm);
     return noise;

@@ -46,6 +46,10 @@ struct RowNoise {
     Eigen::VectorXd sigma_mm;
     bool given = true;
 };
+/// As the rows or the setup state it, else the usual one: for readings that are simulated.
+RowNoise stated_noise(const setup::Setup& setup, const records::ReadingTable& table,
+                      const emulator::Replay& replay);
+/// The same, or what the record itself shows, if that is more (identification/resolution.h).
 RowNoise row_noise(const setup::Setup& setup, const records::ReadingTable& table,
                    const emulator::Replay& replay);
 

@@ -72,6 +72,11 @@ void add_rounding(const setup::Setup& setup, const records::ReadingTable& table,
         std::vector<double> values;
         for (const std::size_t i : rows)
             add_numbers(table.rows[replay.table_row(i)], replay.contact(i), values);
+        // A log that stands still most of the time repeats a few round positions.
+        if (table.rows[replay.table_row(rows.front())].device == records::Device::axis) {
+            std::sort(values.begin(), values.end());
+            values.erase(std::unique(values.begin(), values.end()), values.end());
+        }
         const double spread = spread_of(decimal_step(values));
         for (const std::size_t i : rows) {
             double& sigma = sigma_mm(static_cast<Eigen::Index>(i));

@@ -10,7 +10,7 @@ records::ReadingTable simulated(const setup::Setup& setup, const records::Readin
                                 std::uint64_t seed) {
     records::ReadingTable read = emulator::predicted(setup, table, effects::active_models(setup));
     const emulator::Replay replay(setup, read);
-    const RowNoise noise = row_noise(setup, read, replay);
+    const RowNoise noise = stated_noise(setup, read, replay);
     SeededNoise source(seed);
     for (std::size_t i = 0; i < replay.size(); ++i)
         *read.rows[replay.table_row(i)].value_mm +=

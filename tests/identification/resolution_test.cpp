@@ -7,6 +7,7 @@
 #include "base/units.h"
 #include "identification/base_model.h"
 #include "identification/identify.h"
+#include "identification/simulated.h"
 
 namespace trunnion {
 namespace {
@@ -137,6 +138,34 @@ TEST_CASE("a log whose positions are mostly equal has their digits all the same"
     const emulator::Replay replay(machine(), table);
     const auto noise = identification::row_noise(machine(), table, replay);
     CHECK(noise.sigma_mm.minCoeff() == Approx(1.0 / std::sqrt(12.0)));
+}
+
+TEST_CASE("a log that rests at round positions has the digits of its moves", "[identification]") {
+    setup::Setup stated = machine();
+    stated.model.noise_um["axis"] = 1.0;
+    records::ReadingTable table = log();
+    for (records::Reading& row : table.rows) {
+        const bool rests = row.index % 600 > 20;
+        row.commanded[Axis::X] = 10.0 * (row.index / 600) + (rests ? 0.0 : 0.123 * row.index);
+        row.value_mm = rests ? 0.0 : 0.001 * (row.index % 7);
+    }
+    const emulator::Replay replay(stated, table);
+    CHECK(identification::row_noise(stated, table, replay).sigma_mm.maxCoeff() == 0.001);
+}
+
+TEST_CASE("simulated readings have the noise that is stated, not that of round positions",
+          "[identification]") {
+    setup::Setup stated = machine();
+    stated.model.noise_um["axis"] = 1.0;
+    records::ReadingTable table = log();
+    for (records::Reading& row : table.rows) {
+        row.commanded[Axis::X] = 10.0 * row.index;
+        row.value_mm.reset();
+        row.velocity_mm_s.reset();
+    }
+    table.optional_columns.clear();
+    for (const records::Reading& row : identification::simulated(stated, table, 3).rows)
+        CHECK(std::abs(*row.value_mm) < 0.006);
 }
 
 TEST_CASE("actual positions in another unit or of another column are refused", "[identification]") {
