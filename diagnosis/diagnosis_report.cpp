@@ -127,10 +127,10 @@ void describe_size(const Outcome& f, const Solution& solution, Diagnosis& d) {
     if (d.outliers > 0) d.notes.push_back(set_aside_words(f));
     d.only_scatter = f.judgement.only_scatter;
     if (f.judgement.scatter > rules::most_scatter)
-        d.notes.push_back(
-            fmt::format("repeated readings differ {:.0f} times more than is stated of the device: "
-                        "the noise is that of the repeats",
-                        f.judgement.scatter));
+        d.notes.push_back(fmt::format(
+            "repeated readings scatter {:.0f} times as much as is stated of the device: "
+            "the noise is that of the repeats",
+            f.judgement.scatter));
     for (const auto& entry : f.design.groups()) {
         if (!entry.group.effect || entry.hidden || entry.group.is_change()) continue;
         const effects::EffectIdentity& identity = *entry.group.effect;

@@ -77,7 +77,8 @@ Cause unknown_cause(const Outcome& f, const Diagnosis& d) {
         const auto count = static_cast<double>(f.used.size() - set_aside(f));
         cause.probability = std::max(cause.probability.value(), (count + 1.0) / (count + 2.0));
         cause.what = fmt::format(
-            "Repeated readings differ {:.0f} times more than is stated of the device, and nothing "
+            "Repeated readings scatter {:.0f} times as much as is stated of the device, and "
+            "nothing "
             "beyond that is certain: the machine does not come back to the same place, or "
             "something "
             "disturbs the readings",

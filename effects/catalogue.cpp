@@ -79,7 +79,7 @@ namespace {
 /// The line of sight of two crossing axes, perpendicular to both at zero: of its two ends the one
 /// that a positive turn raises.
 Vector3 line_of_sight(const kinematics::Chain& chain, const Vector3& otherwise) {
-    if (chain.tool.size() < 2) return otherwise;
+    if (chain.tool.size() < 2 || !chain.tool[chain.tool.size() - 2].rotary) return otherwise;
     const Vector3 last = chain.tool.back().direction,
                   across = chain.tool[chain.tool.size() - 2].direction.cross(last);
     if (across.norm() < 1e-6) return otherwise;

@@ -213,8 +213,8 @@ void take_misfit(const BaseModel& base, Identification& result) {
                           "this fit, and its values are less certain than their sigma says "
                           "(trunnion diagnose looks for it)",
                           misfit)
-            : fmt::format("the residual is {:.0f} times the noise that is usual, and nothing "
-                          "states another: sigma is multiplied by it",
+            : fmt::format("the residual is {:.0f} times the noise assumed of these readings, and "
+                          "nobody states it: sigma is multiplied by it",
                           misfit));
 }
 

@@ -35,9 +35,9 @@ std::vector<std::string> index_words(const setup::Setup& fitted) {
         if (name.empty() || effect.name != name || value == effect.parameters.end() ||
             value->second.front() == 0.0)
             continue;
-        sentences.push_back(fmt::format("the index of {} is {} µrad beside that of the setup",
+        sentences.push_back(fmt::format("the index of {} is {} µrad off ({})",
                                         fitted.machine.chain.tool.front().name,
-                                        three_digits(1e6 * value->second.front())));
+                                        three_digits(1e6 * value->second.front()), name));
     }
     return sentences;
 }

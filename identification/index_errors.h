@@ -17,7 +17,8 @@ std::string index_effect(const setup::Setup& setup);
 /// second axis is (the zero of its test), but is read times the cosine of the second angle.
 setup::Setup with_index_errors(setup::Setup setup, const records::ReadingTable& table);
 
-/// A sentence for each such zero in a fitted setup, if it is not 0.
+/// A sentence for such a zero in a fitted setup, if it is not 0: the value of the effect, its sign
+/// that of `offset_rad`.
 std::vector<std::string> index_words(const setup::Setup& fitted);
 
 }  // namespace trunnion::identification

@@ -112,11 +112,11 @@ bool is_bed_mesh(std::string_view text) {
     return text.find("[bed_mesh") != std::string_view::npos && !meshes_in(text).empty();
 }
 
-BedMeshTable::BedMeshTable(const ImportFile& file) {
+MadeTable bed_mesh_table(const ImportFile& file) {
+    MadeTable table;
     for (const Mesh& mesh : meshes_in(file.text)) {
         const MeshReader reader(mesh, file.path);
-        lines_.push_back(
-            {"x nominal [mm];y nominal [mm];z nominal [mm];z measured [mm]", mesh.number});
+        table.add("x nominal [mm];y nominal [mm];z nominal [mm];z measured [mm]", mesh.number);
         const std::size_t columns = reader.numbers_of(mesh.rows.front()).size();
         for (std::size_t j = 0; j < mesh.rows.size(); ++j) {
             const std::vector<double> z = reader.numbers_of(mesh.rows[j]);
@@ -124,17 +124,12 @@ BedMeshTable::BedMeshTable(const ImportFile& file) {
                 reader.fail(mesh.rows[j], fmt::format("{} points in this row, {} in the first one",
                                                       z.size(), columns));
             for (std::size_t i = 0; i < columns; ++i)
-                lines_.push_back({fmt::format("{};{};0;{}", reader.at('x', i, columns),
-                                              reader.at('y', j, mesh.rows.size()), z[i]),
-                                  mesh.rows[j].number});
+                table.add(fmt::format("{};{};0;{}", reader.at('x', i, columns),
+                                      reader.at('y', j, mesh.rows.size()), z[i]),
+                          mesh.rows[j].number);
         }
     }
-}
-
-std::vector<Line> BedMeshTable::lines() const {
-    std::vector<Line> list;
-    for (const OwnLine& line : lines_) list.push_back({line.text, line.number});
-    return list;
+    return table;
 }
 
 }  // namespace trunnion::imports

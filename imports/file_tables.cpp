@@ -64,4 +64,10 @@ std::vector<TextTable> tables_of(const std::vector<Line>& lines, const std::stri
     return tables;
 }
 
+std::vector<Line> MadeTable::lines() const {
+    std::vector<Line> list;
+    for (const OwnLine& line : lines_) list.push_back({line.text, line.number});
+    return list;
+}
+
 }  // namespace trunnion::imports

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "imports/text_table.h"
@@ -17,5 +18,20 @@ std::vector<TextTable> tables_of(std::string_view text, const std::string& path,
 /// The same of lines that keep their numbers.
 std::vector<TextTable> tables_of(const std::vector<TextTable::Line>& lines, const std::string& path,
                                  const std::string& told, std::vector<std::string>& notes);
+
+/// Lines that an import makes of a file which is no table, each with the number of its line there.
+class MadeTable {
+  public:
+    void add(std::string text, int number) { lines_.push_back({std::move(text), number}); }
+    /// They refer to this value.
+    std::vector<TextTable::Line> lines() const;
+
+  private:
+    struct OwnLine {
+        std::string text;
+        int number = 0;
+    };
+    std::vector<OwnLine> lines_;
+};
 
 }  // namespace trunnion::imports

@@ -159,13 +159,13 @@ void import_sights(const TextTable& table, const ImportRequest& request, RowWrit
 
 /// The tables of a file; a TPOINT run is one, kept in `runs`.
 std::vector<TextTable> tables_in(const ImportFile& file, const ImportRequest& request,
-                                 std::deque<TpointTable>& runs, std::vector<std::string>& notes) {
+                                 std::deque<MadeTable>& runs, std::vector<std::string>& notes) {
     const std::string told = request.facts.text("columns");
     if (!told.empty() || !is_tpoint(file.text)) return tables_of(file.text, file.path, told, notes);
-    runs.emplace_back(file, request.setup);
+    runs.push_back(tpoint_table(file, request.setup));
     notes.push_back(file.path +
                     ": a TPOINT run: the encoders are the commanded angles, the star is where the "
-                    "telescope points");
+                    "telescope points; azimuths are as the file counts them (from south or north)");
     return tables_of(runs.back().lines(), file.path, "", notes);
 }
 
@@ -173,7 +173,7 @@ std::vector<TextTable> tables_in(const ImportFile& file, const ImportRequest& re
 
 Imported import_pointing(const ImportRequest& request) {
     Imported result;
-    std::deque<TpointTable> runs;  // tables refer to them
+    std::deque<MadeTable> runs;  // tables refer to them
     std::vector<TextTable> tables;
     for (const ImportFile& file : request.files)
         for (TextTable& table : tables_in(file, request, runs, result.notes))

@@ -257,7 +257,7 @@ void import_file_of_points(const ImportFile& file, const ImportRequest& request,
             import_table_of_points(table, request, out);
         return;
     }
-    const BedMeshTable mesh(file);
+    const MadeTable mesh = bed_mesh_table(file);
     notes.push_back(file.path +
                     ": a bed mesh: its points are measured heights, their nominal Z is 0");
     for (const TextTable& table : tables_of(mesh.lines(), file.path, "", notes))

@@ -63,9 +63,23 @@ void RowWriter::begin_file(const std::string& path, const Facts& facts) {
     path_ = path;
     name_ = file_name_of(path_);
     session_ = facts.text("session");
-    if (session_ == "each") session_ = name_.substr(0, name_.find_last_of('.'));
+    if (session_ == "each") session_ = session_of(path);
     begins_ = true;
     dated_ = false;
+}
+
+/// The name of the file without its ending; of a second file with that name another one.
+std::string RowWriter::session_of(const std::string& path) {
+    const auto known = sessions_.find(path);
+    if (known != sessions_.end()) return known->second;
+    const std::string file = file_name_of(path), stem = file.substr(0, file.find_last_of('.'));
+    std::string name = stem;
+    const auto is_taken = [&] {
+        return std::any_of(sessions_.begin(), sessions_.end(),
+                           [&](const auto& one) { return one.second == name; });
+    };
+    for (int k = 2; is_taken(); ++k) name = fmt::format("{}_{}", stem, k);
+    return sessions_.emplace(path, std::move(name)).first->second;
 }
 
 std::string RowWriter::day_of_row(double time_s) {

@@ -1,6 +1,7 @@
 // Readings of an import in sequence: numbers the rows, keeps the clock, records their source.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -44,7 +45,9 @@ class RowWriter {
     records::ReadingTable head_;
     records::ReadingWriter writer_;
     std::string text_, path_, name_, session_, last_session_;
+    std::map<std::string, std::string> sessions_;  ///< of files, with `session=each`
     int index_ = 0;
+    std::string session_of(const std::string& path);
     std::string day_of_row(double time_s);
 
     bool begins_ = false, dated_ = false, has_column_ = false;

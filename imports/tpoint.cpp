@@ -12,7 +12,8 @@ namespace trunnion::imports {
 namespace {
 
 constexpr int most_head_lines = 200;
-constexpr std::size_t numbers_a_line = 4;  ///< star and telescope, two angles each
+constexpr std::size_t numbers_a_line = 4;   ///< star and telescope, two angles each
+constexpr std::size_t numbers_of_site = 6;  ///< latitude and date at least, before the first star
 
 bool is_comment(std::string_view line) {
     return line.empty() || line.front() == '!' || line.front() == '#';
@@ -80,10 +81,13 @@ bool is_tpoint(std::string_view text) {
     return false;
 }
 
-TpointTable::TpointTable(const ImportFile& file, const setup::Setup& setup) {
+MadeTable tpoint_table(const ImportFile& file, const setup::Setup& setup) {
     const auto [first, second] = axes_of(setup, file.path);
+    const std::string names =
+        fmt::format("{0} act [deg];{1} act [deg];{0} cmd [deg];{1} cmd [deg]", first, second);
+    MadeTable table;
     std::string_view text = file.text;
-    bool options = false, run = false;
+    bool options = false, begun = false;
     for (int number = 1; !text.empty(); ++number) {
         const std::string_view line = records::without_blanks(records::take_line(text));
         if (is_comment(line)) continue;
@@ -94,23 +98,16 @@ TpointTable::TpointTable(const ImportFile& file, const setup::Setup& setup) {
                     "declination, commanded and actual, in columns",
                     {file.path, number, 1}, std::string(line));
             options = true;
-        } else if (upper(line) == "END") {
-            break;
-        } else if (options && !run) {
-            run = true;  // latitude, date, weather
-            lines_.push_back({fmt::format("{0} act [deg];{1} act [deg];{0} cmd [deg];{1} cmd [deg]",
-                                          first, second),
-                              number});
-        } else if (run) {
-            lines_.push_back({row_of(line, {file.path, number, 1}), number});
+            continue;
         }
+        if (upper(line) == "END") break;
+        if (!options) continue;  // the caption
+        if (!begun) table.add(names, number);
+        const bool about_the_site = !begun && words_in(line).size() >= numbers_of_site;
+        begun = true;
+        if (!about_the_site) table.add(row_of(line, {file.path, number, 1}), number);
     }
-}
-
-std::vector<TextTable::Line> TpointTable::lines() const {
-    std::vector<TextTable::Line> list;
-    for (const OwnLine& line : lines_) list.push_back({line.text, line.number});
-    return list;
+    return table;
 }
 
 }  // namespace trunnion::imports

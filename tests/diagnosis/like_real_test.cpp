@@ -166,11 +166,12 @@ TEST_CASE("the index of the azimuth is set-up, and the lean of its axis the caus
         d.set_up_words.begin(), d.set_up_words.end(),
         [](const std::string& s) { return s.find("the index of Az is") != std::string::npos; });
     CHECK(told);
-    // The sign of the reading follows the line of sight, which is against that of the tube here.
+    // A turn about the azimuth, which is -Z here, moves the sight against the component that is
+    // read.
     double found_rad = 0.0;
     for (const setup::EffectSetting& e : d.setup.effects)
         if (e.name == "Az.zero") found_rad = e.parameters.at("offset_rad").front();
-    CHECK(std::abs(found_rad) == Approx(index_rad).epsilon(0.1));
+    CHECK(found_rad == Approx(-index_rad).epsilon(0.1));
 }
 
 }  // namespace trunnion

@@ -167,7 +167,22 @@ TEST_CASE("a TPOINT run in azimuth and altitude", "[imports][more]") {
         CHECK(read[k].commanded == expected[k].commanded);
     }
     CHECK(read.back().source == "f.txt:8");
+    // Without the line about the site the first star is one.
+    CHECK(stars({pointing, "run\n: ALTAZ\n" + rows + "END\n", {}, ""}).size() == 4);
     refuses(mount, {pointing, head + "10.5 30.25 10.4\nEND\n", {}, ""}, "four angles", 6);
     refuses(mount, {pointing, "run\n: EQUAT\n+50 54 0 2024 2 17\nEND\n", {}, ""}, "equatorial", 2);
     refuses(import_bench::setup(), run, "two rotary axes that carry", 1);
+}
+
+TEST_CASE("files of one name in two folders are two sessions", "[imports][more]") {
+    const setup::Setup setup = import_bench::setup();
+    const std::vector<imports::ImportFile> files{{"monday/plate.csv", plain},
+                                                 {"friday/plate.csv", plain}};
+    const imports::Imported got =
+        imports::import_readings(points, {setup, files, imports::Facts({"session=each"}), {}});
+    std::vector<std::string> notes;
+    const auto table =
+        records::parse_readings(got.readings, "r.csv", notes, setup.machine.chain.names());
+    CHECK(table.rows.front().session == "plate");
+    CHECK(table.rows.back().session == "plate_2");
 }

@@ -89,7 +89,7 @@ TEST_CASE("where repeats differ more than is stated, no text promises that the r
     diagnosis::Cause cause;
     cause.effect = "unknown";
     cause.known = false;
-    cause.what = "Repeated readings differ 70 times more than is stated of the device";
+    cause.what = "Repeated readings scatter 70 times as much as is stated of the device";
     d.causes.push_back(cause);
     const std::string text = report::diagnosis_text(d);
     CHECK_THAT(text, Catch::Contains("Repeated readings differ more than is stated; nothing"));
