@@ -219,8 +219,9 @@ void take_misfit(const BaseModel& base, Identification& result) {
 }
 
 /// The effects of a fit: those asked for, else those of the setup, and the index of a telescope.
-std::vector<std::string> fitted_effects(const setup::Setup& setup, std::vector<std::string> asked) {
-    std::vector<std::string> effects = asked.empty() ? setup.model.modelled : std::move(asked);
+std::vector<std::string> fitted_effects(const setup::Setup& setup,
+                                        std::vector<std::string> effects) {
+    if (effects.empty()) effects = setup.model.modelled;
     if (const std::string index = index_effect(setup);
         std::find(setup.model.modelled.begin(), setup.model.modelled.end(), index) !=
             setup.model.modelled.end() &&

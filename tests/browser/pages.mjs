@@ -145,6 +145,7 @@ async function tryRunPage(tab, where) {
   const row = tab.locator(".blocks .row", { hasText: "G1 " }).first();
   await row.click();
   const chosen = tab.locator(".blocks .row.chosen");
+  await row.and(chosen).waitFor({ timeout: 10000 }).catch(() => {});  // a busy processor draws late
   check(await chosen.count() === 1, `${where}: a click chooses a block`);
   check((await row.getAttribute("class")).includes("chosen"), `${where}: the block clicked`);
   check(await clicksOnPath(tab, canvas, chosen) >= 2, `${where}: a click on the path, its block`);
