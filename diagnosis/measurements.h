@@ -1,6 +1,7 @@
 // The list of possible next measurements, as rows for prediction and as NC programs.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,11 +11,12 @@
 namespace trunnion::diagnosis {
 
 /// One ready measurement: description, the rows that its program reads, the program (O8900, calls
-/// O8100) and its duration.
+/// O8100; none where the present readings are repeated) and its duration.
 struct Measurement {
     std::string name, text, program;
     records::ReadingTable table;
     double minutes = 0.0;
+    std::optional<setup::Setup> setup = {};  ///< of its rows, if it is not the present one
 };
 
 /// All measurements possible with this machine and its artefacts. `start_s`: start time on the

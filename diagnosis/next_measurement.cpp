@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "diagnosis/measurements.h"
+#include "diagnosis/measurement_repeats.h"
 #include "diagnosis/rules.h"
 #include "estimation/inner_products.h"
 #include "estimation/ranked_least_squares.h"
@@ -19,10 +19,14 @@ struct Block {
     Eigen::MatrixXd base, square;
 };
 
-std::vector<std::string> names_of(const std::vector<identification::FitParameter>& parameters) {
+/// `own_set_up`: set-up quantities are those of this block alone, because a part or a reflector
+/// that is mounted again is not at its old place.
+std::vector<std::string> names_of(const std::vector<identification::FitParameter>& parameters,
+                                  bool own_set_up) {
     std::vector<std::string> names;
     for (const identification::FitParameter& p : parameters)
-        names.push_back(p.effect + "." + p.name + "." + std::to_string(p.component));
+        names.push_back((own_set_up && p.of_set_up ? "again " : "") + p.effect + "." + p.name +
+                        "." + std::to_string(p.component));
     return names;
 }
 
@@ -42,16 +46,17 @@ Eigen::MatrixXd whitened(const Whitener& whitener, Eigen::MatrixXd columns) {
 
 Block block_of(const Whitener& whitener,
                const std::vector<identification::FitParameter>& parameters,
-               const Eigen::MatrixXd& columns) {
-    Block block{names_of(parameters), whitened(whitener, columns), {}};
+               const Eigen::MatrixXd& columns, bool own_set_up) {
+    Block block{names_of(parameters, own_set_up), whitened(whitener, columns), {}};
     block.square = estimation::inner_products(block.base);
     return block;
 }
 
-Worked work_out(Measurement m, const setup::Setup& setup, const effects::Catalogue& catalogue,
+Worked work_out(Measurement m, const setup::Setup& present, const effects::Catalogue& catalogue,
                 const std::vector<std::string>& effects, const NoiseModel& noise) {
     Worked w;
     w.measurement = std::move(m);
+    const setup::Setup& setup = w.measurement.setup ? *w.measurement.setup : present;
     w.replay = std::make_unique<emulator::Replay>(setup, w.measurement.table);
     const kinematics::ForwardModel forward(setup.machine);
     for (std::size_t i = 0; i < w.replay->size(); ++i)
@@ -61,7 +66,7 @@ Worked work_out(Measurement m, const setup::Setup& setup, const effects::Catalog
         identification::row_noise(setup, w.measurement.table, *w.replay).sigma_mm);
     const identification::BaseColumns base =
         identification::base_columns(setup, *w.replay, catalogue, effects, w.gradient);
-    w.block = block_of(*w.whitener, base.parameters, base.columns);
+    w.block = block_of(*w.whitener, base.parameters, base.columns, w.measurement.program.empty());
     return w;
 }
 
@@ -150,6 +155,14 @@ struct Present {
     Block block;
 };
 
+/// What an instrument does to its own readings shows in no repeat of them.
+std::string without_measurement(const std::string& first, const std::string& second) {
+    const auto of_sensor = [](const std::string& name) { return name.starts_with("sensor."); };
+    if (of_sensor(first) != of_sensor(second))
+        return fmt::format("to tell {} from {}: measure with a second instrument", first, second);
+    return fmt::format("no ready measurement tells {} from {} at this size", first, second);
+}
+
 NextMeasurement best_for(const AmbiguousPair& pair, const std::vector<Worked>& list,
                          const Present& present) {
     const auto columns = [&](const ColumnGroup& group) {
@@ -183,9 +196,7 @@ NextMeasurement best_for(const AmbiguousPair& pair, const std::vector<Worked>& l
                                 best.settles ? "it is expected to settle the matter"
                                              : "it may take more than this one");
     }
-    if (best.text.empty())
-        best.text = fmt::format("no ready measurement tells {} from {} at this size", best.first,
-                                best.second);
+    if (best.text.empty()) best.text = without_measurement(best.first, best.second);
     return best;
 }
 
@@ -200,10 +211,14 @@ std::vector<NextMeasurement> plan_next(const Prepared& prepared, const NoiseMode
     std::vector<NextMeasurement> plan;
     if (pairs.empty()) return plan;
     Whitener whitener(prepared.replay, prepared.blocks, noise, base.sigma_mm);
-    Block block = block_of(whitener, base.parameters, base.columns);
+    Block block = block_of(whitener, base.parameters, base.columns, false);
     const Present present{prepared, std::move(whitener), std::move(block)};
     std::vector<Worked> list;
-    for (Measurement& m : ready_measurements(base.setup, end_s + 600.0)) {
+    std::vector<Measurement> ready =
+        repeated_measurements(base.setup, prepared.table, end_s + 600.0);
+    for (Measurement& m : ready_measurements(base.setup, end_s + 600.0))
+        ready.push_back(std::move(m));
+    for (Measurement& m : ready) {
         if (stopped()) return plan;
         list.push_back(work_out(std::move(m), base.setup, prepared.catalogue,
                                 base.setup.model.modelled, noise));
