@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "diagnosis/changes.h"
+#include "diagnosis/copies.h"
 #include "diagnosis/diagnosis_report.h"
 #include "diagnosis/open_sides.h"
 #include "diagnosis/outliers.h"
@@ -54,8 +55,8 @@ bool straighten(Prepared& p, Searched& s) {
 }
 
 bool same_noise(const NoiseModel& a, const NoiseModel& b) {
-    for (const records::Device device :
-         {records::Device::sphere, records::Device::touch, records::Device::ballbar}) {
+    using enum records::Device;
+    for (const records::Device device : {sphere, touch, ballbar, linear, angle, point, axis}) {
         const DeviceNoise &x = a.of(device), &y = b.of(device);
         if (std::abs(x.scale - y.scale) > 0.03 * x.scale) return false;
         if (std::abs(x.shared - y.shared) > 0.03) return false;
@@ -119,7 +120,7 @@ bool corrected(Prepared& p, Searched& s, Round& round) {
         changed = true;
     }
     if (round.noise.model.source == NoiseSource::repeats && (!s.model.members.empty() || changed)) {
-        const NoiseBelief noise = belief_of(p, left, round.sigma_mm);
+        const NoiseBelief noise = belief_of(p, left, round);
         if (!same_noise(noise.model, round.noise.model)) {
             round.noise = noise;
             changed = true;
@@ -152,6 +153,11 @@ Diagnosis diagnose(const setup::Setup& setup, const records::ReadingTable& table
                    const DiagnosisOptions& options) {
     if (options.over_sessions)
         if (const auto named = files_as_sessions(table)) return diagnose(setup, *named, options);
+    if (const auto once = without_copies(table)) {
+        Diagnosis d = diagnose(setup, *once, options);
+        d.copies = table.rows.size() - once->rows.size();
+        return d;
+    }
     if (const auto fewer = thinned(table, most_readings)) {
         Diagnosis d = diagnose(setup, *fewer, options);
         d.chosen_from = static_cast<std::size_t>(std::count_if(
@@ -167,7 +173,7 @@ Diagnosis diagnose(const setup::Setup& setup, const records::ReadingTable& table
     if (options.over_sessions) refuse_one_session(p);
     const std::vector<bool> all(p.replay.size(), true);
     Round round{all, {}, p.base.sigma_mm, options.over_sessions};
-    round.noise = belief_of(p, p.base.residual_mm, round.sigma_mm);
+    round.noise = belief_of(p, p.base.residual_mm, round);
     leave_out(p, lone_probe_readings(p, round.used), round);
     take_promising_sides(p);
     std::optional<KeySearch> keys(std::in_place, p.replay, p.base);

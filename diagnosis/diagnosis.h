@@ -101,8 +101,9 @@ struct Diagnosis {
     bool unfinished = false;  ///< the search was ended: all this is of the best model until then
     std::size_t readings = 0, outliers = 0;
     std::vector<std::string> notes;  ///< large residuals declared as intended
-    std::size_t chosen_from = 0;     ///< number of readings of a longer table from which these were
-                                     ///< selected; else 0
+    std::size_t copies = 0;       ///< readings that repeat the one before exactly, and do not count
+    std::size_t chosen_from = 0;  ///< number of readings of a longer table from which these were
+                                  ///< selected; else 0
     std::vector<double> before_um, after_um;  ///< machine minus simulation, for each reading
     std::vector<SessionFit> sessions;         ///< if changes between sessions were requested
     std::vector<SessionChange> changes;       ///< likewise

@@ -75,8 +75,8 @@ struct Again {
     double start_s;
 };
 
-Measurement named(const Again& again, std::string name, std::string text,
-                  records::ReadingTable table) {
+Measurement repeat(const Again& again, std::string name, std::string text,
+                   records::ReadingTable table) {
     table.path = "measurement " + name;
     Measurement m{std::move(name), std::move(text), "", std::move(table)};
     m.minutes = prepare_min + duration_s(m.table) / 60.0;
@@ -145,16 +145,16 @@ void add_parallel_lines(const Again& again, std::vector<Measurement>& list) {
             all.rows.push_back(std::move(row));
         }
         names += (count++ ? ", then with " : "with ") + name;
-        list.push_back(named(again, "parallel_" + name,
-                             fmt::format("take {} again with {} up to {:.0f} mm aside",
-                                         readings_of(again.table), name, beside_mm),
-                             std::move(table)));
+        list.push_back(repeat(again, "parallel_" + name,
+                              fmt::format("take {} again with {} up to {:.0f} mm aside",
+                                          readings_of(again.table), name, beside_mm),
+                              std::move(table)));
     }
     if (count < 2) return;
-    list.push_back(named(again, "parallel_all",
-                         fmt::format("take {} again {}, each up to {:.0f} mm aside",
-                                     readings_of(again.table), names, beside_mm),
-                         std::move(all)));
+    list.push_back(repeat(again, "parallel_all",
+                          fmt::format("take {} again {}, each up to {:.0f} mm aside",
+                                      readings_of(again.table), names, beside_mm),
+                          std::move(all)));
 }
 
 /// The target on the tool further from the spindle nose: one of its own.
@@ -169,11 +169,11 @@ void add_longer_tool(const Again& again, std::vector<Measurement>& list) {
     if (!any || logs_axes(again.table) ||
         !(has(again.table, records::Device::linear) || has(again.table, records::Device::point)))
         return;
-    Measurement m = named(again, "longer_tool",
-                          fmt::format("take {} again with the target {:.0f} mm further from the "
-                                      "spindle nose (in the setup a target of its own)",
-                                      readings_of(again.table), lower_mm),
-                          again.table);
+    Measurement m = repeat(again, "longer_tool",
+                           fmt::format("take {} again with the target {:.0f} mm further from the "
+                                       "spindle nose (in the setup a target of its own)",
+                                       readings_of(again.table), lower_mm),
+                           again.table);
     for (records::Reading& row : m.table.rows) row.point_W_mm.reset();
     m.setup = std::move(setup);
     list.push_back(std::move(m));
@@ -198,10 +198,10 @@ void add_both_sides(const Again& again, std::vector<Measurement>& list) {
             table.rows.push_back(row);
         }
     }
-    Measurement m = named(again, "both_sides",
-                          fmt::format("take {} again, every place from below and from above",
-                                      readings_of(again.table)),
-                          std::move(table));
+    Measurement m = repeat(again, "both_sides",
+                           fmt::format("take {} again, every place from below and from above",
+                                       readings_of(again.table)),
+                           std::move(table));
     list.push_back(std::move(m));
 }
 
@@ -226,11 +226,11 @@ void add_denser(const Again& again, std::vector<Measurement>& list) {
         table.rows.push_back(row);
         last = &row;
     }
-    Measurement m = named(again, "denser",
-                          fmt::format("take {} again, with a place more between each two, not in "
-                                      "the middle",
-                                      readings_of(again.table)),
-                          std::move(table));
+    Measurement m = repeat(again, "denser",
+                           fmt::format("take {} again, with a place more between each two, not in "
+                                       "the middle",
+                                       readings_of(again.table)),
+                           std::move(table));
     list.push_back(std::move(m));
 }
 
@@ -240,9 +240,9 @@ void add_reversed(const Again& again, std::vector<Measurement>& list) {
     std::reverse(table.rows.begin(), table.rows.end());
     const double end = table.rows.front().time_s;
     for (records::Reading& row : table.rows) row.time_s = end - row.time_s;
-    Measurement m = named(again, "reversed",
-                          fmt::format("take {} again in reverse order", readings_of(again.table)),
-                          std::move(table));
+    Measurement m = repeat(again, "reversed",
+                           fmt::format("take {} again in reverse order", readings_of(again.table)),
+                           std::move(table));
     list.push_back(std::move(m));
 }
 
@@ -265,11 +265,11 @@ void add_speeds(const Again& again, std::vector<Measurement>& list) {
         }
         time_s = last + 60.0;
     }
-    Measurement m = named(again, "speeds",
-                          fmt::format("take {} again at a third of the speed and at three times "
-                                      "the speed",
-                                      readings_of(again.table)),
-                          std::move(both));
+    Measurement m = repeat(again, "speeds",
+                           fmt::format("take {} again at a third of the speed and at three times "
+                                       "the speed",
+                                       readings_of(again.table)),
+                           std::move(both));
     list.push_back(std::move(m));
 }
 

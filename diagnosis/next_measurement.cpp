@@ -163,6 +163,16 @@ std::string without_measurement(const std::string& first, const std::string& sec
     return fmt::format("no ready measurement tells {} from {} at this size", first, second);
 }
 
+/// False for a repeat that shows little more than the same readings once more would: what the rival
+/// loses there is that it is held in one form, and another form of it would lose nothing.
+bool shows_more(const Worked& w, double more, double before, const Present& present) {
+    constexpr double least = 3.0;
+    if (!w.measurement.program.empty()) return true;
+    const auto rows = static_cast<double>(w.replay->size());
+    const double once_more = before * rows / static_cast<double>(present.prepared.replay.size());
+    return more > least * once_more;
+}
+
 NextMeasurement best_for(const AmbiguousPair& pair, const std::vector<Worked>& list,
                          const Present& present) {
     const auto columns = [&](const ColumnGroup& group) {
@@ -181,7 +191,7 @@ NextMeasurement best_for(const AmbiguousPair& pair, const std::vector<Worked>& l
         then.add(w.block, effect_block(w, rival_group),
                  effect_block(w, *pair.claimed) * pair.values);
         const double lost = then.left(), gain = 0.5 * (lost - before);
-        if (gain < 3.0) continue;
+        if (gain < 3.0 || !shows_more(w, lost - before, before, present)) continue;
         // Degree of separation for each minute; beyond full separation there is no further benefit.
         const double settled =
             std::min(1.0, lost / (settled_margin * rules::rival_limit(then.left_by_base())));

@@ -80,6 +80,20 @@ bool touches_again(const emulator::Replay& replay, const records::ReadingTable& 
     return again && pause_s > long_pause * shortest_s;
 }
 
+bool is_sampled_pass(records::Device device) {
+    return device == records::Device::linear || device == records::Device::angle;
+}
+
+/// Readings of a pass of a laser or autocollimator that are left out together: eight, of few
+/// readings a sixth of them, so that what is left determines an effect.
+std::size_t longest_of_pass(const emulator::Replay& replay) {
+    constexpr std::size_t longest = 8, blocks = 6;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < replay.size(); ++i)
+        if (is_sampled_pass(replay.contact(i).device)) ++count;
+    return std::clamp<std::size_t>(count / blocks, 1, longest);
+}
+
 /// True when reading i continues a visit, that is the readings of one pose of a probe or target, or
 /// of one approach of a pass: they share an error. A pose that is left and taken again has another.
 bool continues(const emulator::Replay& replay, const records::ReadingTable& table,
@@ -89,8 +103,7 @@ bool continues(const emulator::Replay& replay, const records::ReadingTable& tabl
     const records::Reading &before = table.rows[last], &row = table.rows[replay.table_row(i)];
     if (before.feature != row.feature || before.mode != row.mode || visit.size() >= most)
         return false;
-    const bool pass = row.device == records::Device::linear || row.device == records::Device::angle;
-    if (pass) return visit.size() < 8;
+    if (is_sampled_pass(row.device)) return true;  // as long as a pass may be
     for (const Axis axis : table.axes)
         if ((table.names.is_rotary(axis) || row.device == records::Device::point) &&
             std::abs(before.commanded[axis] - row.commanded[axis]) > same_angle_rad)
@@ -121,6 +134,7 @@ std::vector<NoiseBlock> noise_blocks(const emulator::Replay& replay,
                                      const records::ReadingTable& table) {
     std::vector<NoiseBlock> blocks;
     std::map<std::string, std::size_t> open;  // by test
+    const std::size_t of_pass = longest_of_pass(replay);
     for (std::size_t i = 0; i < replay.size(); ++i) {
         const records::Reading& row = table.rows[replay.table_row(i)];
         const auto it = open.find(row.test);
@@ -128,6 +142,7 @@ std::vector<NoiseBlock> noise_blocks(const emulator::Replay& replay,
         if (same && row.device != records::Device::ballbar && row.device != records::Device::axis) {
             const std::vector<Eigen::Index>& visit = blocks[it->second].rows;
             same = static_cast<std::size_t>(visit.back()) + 1 == i &&
+                   !(is_sampled_pass(row.device) && visit.size() >= of_pass) &&
                    continues(replay, table, visit, i);
         }
         if (!same) {

@@ -72,11 +72,15 @@ struct RepeatedRows {
     const emulator::Replay& replay;
     const records::ReadingTable& table;
     const std::vector<NoiseBlock>& blocks;
+    const std::vector<bool>& used;           ///< of device rows; others repeat nothing
+    const std::vector<Eigen::Index>& cycle;  ///< of each row of a laser test, else empty
+    const Eigen::VectorXd& rounding_mm;  ///< least deviation of a row (identification/resolution.h)
 };
 
 /// Noise from repeated poses and passes: differences of their residuals, after removing a shift
-/// between the two. Devices without enough repeats keep the values of `start`; `source` says
-/// whether repeats were used.
+/// between the two. No device is better than the last digit of its readings, however well they
+/// repeat. Devices without enough repeats keep the values of `start`; `source` says whether repeats
+/// were used.
 NoiseModel noise_from_repeats(const RepeatedRows& rows, const Eigen::VectorXd& residual_mm,
                               const Eigen::VectorXd& sigma_mm, const NoiseModel& start);
 

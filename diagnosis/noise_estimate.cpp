@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlopt.hpp>
+#include <set>
 #include <tuple>
 
 #include "diagnosis/noise.h"
@@ -16,6 +17,7 @@ namespace {
 /// directions define the shared part.
 struct Stretch {
     std::vector<Eigen::Index> rows;
+    Eigen::Index before = 0;  ///< the row that the first one repeats
     Eigen::VectorXd value;
 };
 
@@ -182,15 +184,17 @@ Key key_of(const emulator::Replay& replay, const records::ReadingTable& table, s
             travel};
 }
 
-/// Rows that are compared as a whole: the blocks, or single readings.
-std::vector<NoiseBlock> compared_rows(const std::vector<NoiseBlock>& blocks) {
+/// Rows that are compared as a whole: the blocks, or single readings of those used.
+std::vector<NoiseBlock> compared_rows(const std::vector<NoiseBlock>& blocks,
+                                      const std::vector<bool>& used) {
     std::vector<NoiseBlock> list;
     for (const NoiseBlock& block : blocks) {
         if (!has_single_repeats(block.device)) {
             list.push_back(block);
             continue;
         }
-        for (const Eigen::Index row : block.rows) list.push_back({block.device, {row}});
+        for (const Eigen::Index row : block.rows)
+            if (used[static_cast<std::size_t>(row)]) list.push_back({block.device, {row}});
     }
     return list;
 }
@@ -213,33 +217,6 @@ std::vector<std::pair<std::size_t, std::size_t>> repeated_blocks(
     return pairs;
 }
 
-/// Removes the effect of a shift of the machine that grows with time from the differences of rows
-/// that are no passes.
-void remove_shift(const emulator::Replay& replay, std::vector<Stretch>& stretches) {
-    Eigen::Index n = 0;
-    for (const Stretch& s : stretches) n += s.value.size();
-    constexpr int p = 6;  // a shift, and one that grows with time
-    Eigen::MatrixXd a(n, p);
-    Eigen::VectorXd y(n);
-    Eigen::Index at = 0;
-    for (const Stretch& s : stretches)
-        for (Eigen::Index k = 0; k < s.value.size(); ++k, ++at) {
-            const auto i = static_cast<std::size_t>(s.rows[static_cast<std::size_t>(k)]);
-            a.row(at).head<3>() = replay.contact(i).direction_M.transpose();
-            a.row(at).tail<3>() = a.row(at).head<3>() * (replay.sample(i).time_s * 1e-4);
-            y(at) = s.value(k);
-        }
-    const estimation::Projection shifts(std::move(a));
-    const Eigen::VectorXd left =
-        shifts.beside(y) *
-        std::sqrt(static_cast<double>(n) / static_cast<double>(n - shifts.rank()));
-    at = 0;
-    for (Stretch& s : stretches)
-        for (double& value : s.value) value = left(at++);
-}
-
-}  // namespace
-
 /// Robust size of the differences, at least 1. What is stated of a device is its resolution or its
 /// accuracy; what repeats differ by is known from them alone.
 double typical_size(const std::vector<Stretch>& stretches) {
@@ -248,32 +225,110 @@ double typical_size(const std::vector<Stretch>& stretches) {
     return std::max(1.0, estimation::robust_deviation(std::move(all)));
 }
 
+constexpr double farthest = 6.0;  ///< of the typical difference: an outlier, which must not
+                                  ///< determine the noise
+
+/// Removes the effect of a shift of the machine that grows with time from the differences of rows
+/// that are no passes. Outliers take no part in it.
+void remove_shift(const emulator::Replay& replay, std::vector<Stretch>& stretches) {
+    constexpr int p = 6;  // a shift, and one that grows with time
+    const double most = farthest * typical_size(stretches);
+    std::vector<double*> values;
+    std::vector<std::size_t> rows;
+    for (Stretch& s : stretches)
+        for (std::size_t k = 0; k < s.rows.size(); ++k)
+            if (double& value = s.value(static_cast<Eigen::Index>(k)); std::abs(value) <= most) {
+                values.push_back(&value);
+                rows.push_back(static_cast<std::size_t>(s.rows[k]));
+            }
+    const auto n = static_cast<Eigen::Index>(rows.size());
+    Eigen::MatrixXd a(n, p);
+    Eigen::VectorXd y(n);
+    for (Eigen::Index k = 0; k < n; ++k) {
+        const std::size_t i = rows[static_cast<std::size_t>(k)];
+        a.row(k).head<3>() = replay.contact(i).direction_M.transpose();
+        a.row(k).tail<3>() = a.row(k).head<3>() * (replay.sample(i).time_s * 1e-4);
+        y(k) = *values[static_cast<std::size_t>(k)];
+    }
+    const estimation::Projection shifts(std::move(a));
+    const auto free = std::max<Eigen::Index>(1, n - shifts.rank());
+    const Eigen::VectorXd left =
+        shifts.beside(y) * std::sqrt(static_cast<double>(n) / static_cast<double>(free));
+    for (Eigen::Index k = 0; k < n; ++k) *values[static_cast<std::size_t>(k)] = left(k);
+}
+
+/// Removes from the differences between two cycles of a laser test their median: the zero of a
+/// cycle may differ from that of the one before. Few differences between two cycles keep it.
+void remove_zeros_of_cycles(const std::vector<Eigen::Index>& cycle, std::vector<Stretch>& list) {
+    constexpr std::size_t fewest_of_cycle = 5;
+    std::map<std::pair<Eigen::Index, Eigen::Index>, std::vector<double*>> between;
+    for (Stretch& s : list)
+        between[{cycle[static_cast<std::size_t>(s.before)],
+                 cycle[static_cast<std::size_t>(s.rows.front())]}]
+            .push_back(&s.value(0));
+    for (auto& [cycles, values] : between) {
+        const std::size_t n = values.size();
+        if (cycles.first == cycles.second || n < fewest_of_cycle) continue;
+        std::vector<double> all;
+        for (const double* value : values) all.push_back(*value);
+        const double zero = estimation::median(std::move(all));
+        const double free = std::sqrt(static_cast<double>(n) / static_cast<double>(n - 1));
+        for (double* value : values) *value = (*value - zero) * free;
+    }
+}
+
+/// The largest part of a row's deviation that its last digit is, in typical rows of a device.
+double rounding_of(const RepeatedRows& rows, const Eigen::VectorXd& sigma_mm,
+                   records::Device device) {
+    std::vector<double> part;
+    for (Eigen::Index i = 0; i < sigma_mm.size(); ++i)
+        if (const auto row = static_cast<std::size_t>(i);
+            rows.used[row] && rows.replay.contact(row).device == device)
+            part.push_back(rows.rounding_mm(i) / sigma_mm(i));
+    return part.empty() ? 0.0 : estimation::median(std::move(part));
+}
+
+/// Differences of rows that repeat each other, by device.
+std::map<records::Device, std::vector<Stretch>> differences_of(
+    const RepeatedRows& rows, const std::vector<NoiseBlock>& blocks,
+    const Eigen::VectorXd& residual_mm, const Eigen::VectorXd& sigma_mm) {
+    std::map<records::Device, std::vector<Stretch>> stretches;
+    for (const auto& [first, second] : repeated_blocks(rows.replay, rows.table, blocks)) {
+        Stretch s;
+        std::vector<double> values;
+        for (std::size_t k = 0; k < blocks[second].rows.size(); ++k) {
+            const Eigen::Index a = blocks[first].rows[k], b = blocks[second].rows[k];
+            if (!rows.used[static_cast<std::size_t>(a)] || !rows.used[static_cast<std::size_t>(b)])
+                continue;
+            if (s.rows.empty()) s.before = a;
+            s.rows.push_back(b);
+            values.push_back((residual_mm(b) - residual_mm(a)) /
+                             std::hypot(sigma_mm(a), sigma_mm(b)));
+        }
+        if (values.empty()) continue;
+        s.value = Eigen::Map<const Eigen::VectorXd>(values.data(),
+                                                    static_cast<Eigen::Index>(values.size()));
+        stretches[blocks[second].device].push_back(std::move(s));
+    }
+    return stretches;
+}
+
 /// Fewer differences say no more than what is stated or usual.
 std::size_t fewest(records::Device device) {
     return has_single_repeats(device) ? 10 : 30;
 }
 
+}  // namespace
+
 NoiseModel noise_from_repeats(const RepeatedRows& rows, const Eigen::VectorXd& residual_mm,
                               const Eigen::VectorXd& sigma_mm, const NoiseModel& start) {
-    const auto& [replay, table, visits] = rows;
-    const std::vector<NoiseBlock> blocks = compared_rows(visits);
+    const std::vector<NoiseBlock> blocks = compared_rows(rows.blocks, rows.used);
     NoiseModel noise = start;
-    std::map<records::Device, std::vector<Stretch>> stretches;
-    for (const auto& [first, second] : repeated_blocks(replay, table, blocks)) {
-        Stretch s;
-        s.rows = blocks[second].rows;
-        s.value.resize(static_cast<Eigen::Index>(s.rows.size()));
-        for (std::size_t k = 0; k < s.rows.size(); ++k) {
-            const Eigen::Index a = blocks[first].rows[k], b = s.rows[k];
-            s.value(static_cast<Eigen::Index>(k)) =
-                (residual_mm(b) - residual_mm(a)) / std::hypot(sigma_mm(a), sigma_mm(b));
-        }
-        stretches[blocks[second].device].push_back(std::move(s));
-    }
-    std::map<records::Device, std::size_t> present;
-    for (const NoiseBlock& block : blocks) present[block.device] += block.rows.size();
+    auto stretches = differences_of(rows, blocks, residual_mm, sigma_mm);
+    std::set<records::Device> present;
+    for (const NoiseBlock& block : blocks) present.insert(block.device);
     bool all = !present.empty();
-    for (const auto& [device, readings] : present) {
+    for (const records::Device device : present) {
         auto& list = stretches[device];
         std::size_t count = 0;
         for (const Stretch& s : list) count += static_cast<std::size_t>(s.value.size());
@@ -281,11 +336,16 @@ NoiseModel noise_from_repeats(const RepeatedRows& rows, const Eigen::VectorXd& r
             all = false;
             continue;
         }
-        if (device != records::Device::ballbar) remove_shift(replay, list);
+        if (!rows.cycle.empty())
+            remove_zeros_of_cycles(rows.cycle, list);
+        else if (device != records::Device::ballbar)
+            remove_shift(rows.replay, list);
         const double usual = typical_size(list);
-        for (Stretch& s : list)  // a few outliers must not determine the noise
-            s.value = s.value.cwiseMax(-6.0 * usual).cwiseMin(6.0 * usual);
-        noise.of(device) = estimate(replay, device, list, 0.05 * usual, 4.0 * usual);
+        for (Stretch& s : list)
+            s.value = s.value.cwiseMax(-farthest * usual).cwiseMin(farthest * usual);
+        noise.of(device) = estimate(rows.replay, device, list, 0.05 * usual, 4.0 * usual);
+        noise.of(device).scale =
+            std::max(noise.of(device).scale, rounding_of(rows, sigma_mm, device));
         const double independent = noise.of(device).independent(static_cast<double>(count));
         noise.doubt = std::max(noise.doubt, std::sqrt(2.0 / independent));
     }

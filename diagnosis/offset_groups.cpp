@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <string>
 
 #include "base/units.h"
@@ -55,58 +54,19 @@ void add_group(Design& design, const Whitener& whitener, ColumnGroup group,
 constexpr const char* single_tests = "is an offset of single tests";
 constexpr const char* single_cycles = "is an offset of single cycles";
 
-/// The only axis that moves in the readings of a laser or an autocollimator; none if there are
-/// several or other readings.
-std::optional<Axis> measured_axis(const Prepared& p) {
-    std::optional<Axis> moving;
-    for (const Axis axis : p.table.axes) {
-        const double first = p.replay.sample(0).position[axis];
-        bool moves = false;
-        for (std::size_t i = 0; i < p.replay.size(); ++i) {
-            const records::Device device = p.replay.contact(i).device;
-            if (device != records::Device::linear && device != records::Device::angle) return {};
-            moves = moves || p.replay.sample(i).position[axis] != first;
-        }
-        if (moves && moving) return {};
-        if (moves) moving = axis;
-    }
-    return moving;
-}
-
-/// Number of the cycle of each row: to the far end and back, or there only. A new one begins with
-/// a test and where the axis starts again from the side of the first reading.
-std::vector<Eigen::Index> cycles_of(const Prepared& p, Axis axis) {
-    std::vector<Eigen::Index> cycle(p.replay.size(), 0);
-    const auto test = [&](std::size_t i) -> const std::string& {
-        return p.table.rows[p.replay.table_row(i)].test;
-    };
-    int start = 0;  // side of the first reading
-    for (std::size_t i = 0; i < p.replay.size(); ++i) {
-        const int side = p.replay.sample(i).travel[index_of(axis)];
-        const bool first = i == 0 || test(i) != test(i - 1);
-        if (first) start = side;
-        if (i == 0) continue;
-        double step = p.replay.sample(i).position[axis] - p.replay.sample(i - 1).position[axis];
-        if (is_rotary(axis)) step = std::remainder(step, 2.0 * pi);  // 180 and -180 deg are one
-        const bool turned = p.replay.sample(i - 1).travel[index_of(axis)] != side;
-        const bool again = side == start && (turned || step * side < 0.0);
-        cycle[i] = cycle[i - 1] + (first || again ? 1 : 0);
-    }
-    return cycle;
-}
-
 /// The zero of each cycle within a test: an interferometer drifts, a reference mark slips.
 void add_cycle_group(Design& design, const Prepared& p, const Whitener& whitener,
                      Eigen::Index tests) {
-    const std::optional<Axis> axis = measured_axis(p);
-    if (!axis) return;
-    const std::vector<Eigen::Index> cycle = cycles_of(p, *axis);
+    const std::vector<Eigen::Index>& cycle = p.cycle;
+    if (cycle.empty()) return;
     const Eigen::Index count = cycle.back() + 1;
     if (count <= std::max<Eigen::Index>(1, tests) || count > most_tests) return;
     Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(cycle.size()), count);
     for (std::size_t i = 0; i < cycle.size(); ++i)
         columns(static_cast<Eigen::Index>(i), cycle[i]) = usual_zero_mm;
-    add_group(design, whitener, group_named("zero of a cycle", single_cycles), std::move(columns));
+    ColumnGroup group = group_named("zero of a cycle", single_cycles);
+    group.of_cycles = true;
+    add_group(design, whitener, std::move(group), std::move(columns));
 }
 
 }  // namespace

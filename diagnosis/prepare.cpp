@@ -8,8 +8,10 @@
 
 #include "base/alarm.h"
 #include "base/rounded.h"
+#include "diagnosis/cycles.h"
 #include "diagnosis/machine_jump.h"
 #include "identification/index_errors.h"
+#include "identification/resolution.h"
 
 namespace trunnion::diagnosis {
 namespace {
@@ -33,6 +35,22 @@ bool is_one_sweep(const emulator::Replay& replay, const std::vector<Axis>& axes)
     });
 }
 
+namespace {
+
+/// Fold of a block of a laser or autocollimator, whose cycles may be as long as some folds: then
+/// the same targets would be left out in every cycle. The sum of the digits of its number.
+int scattered_fold(int block) {
+    int sum = 0;
+    for (; block > 0; block /= Folds::count) sum += block % Folds::count;
+    return sum % Folds::count;
+}
+
+bool visits_targets(const NoiseBlock& block) {
+    return block.device == records::Device::linear || block.device == records::Device::angle;
+}
+
+}  // namespace
+
 Folds make_folds(const std::vector<NoiseBlock>& blocks, std::size_t rows) {
     Folds folds;
     folds.group.assign(rows, 0);
@@ -50,7 +68,9 @@ Folds make_folds(const std::vector<NoiseBlock>& blocks, std::size_t rows) {
             folds.group[static_cast<std::size_t>(block.rows[k])] =
                 first + static_cast<int>(k * pieces / block.rows.size());
         for (std::size_t k = 0; k < pieces; ++k)
-            folds.fold.push_back((bar ? 3 * pass + static_cast<int>(k) : pass) % Folds::count);
+            folds.fold.push_back(bar ? (3 * pass + static_cast<int>(k)) % Folds::count
+                                 : visits_targets(block) ? scattered_fold(pass)
+                                                         : pass % Folds::count);
         ++pass;
     }
     // Of few poses each is left out alone: with a fifth of them missing, an effect of several
@@ -75,6 +95,8 @@ Prepared::Prepared(const setup::Setup& setup, const records::ReadingTable& readi
             open_sides.push_back(k);
     base = identification::fit_base(setup, table, replay, catalogue, setup.model.modelled);
     blocks = noise_blocks(replay, table);
+    cycle = cycles_of(replay, table);
+    rounding_mm = identification::rounding(table, replay);
     folds = make_folds(blocks, replay.size());
 }
 

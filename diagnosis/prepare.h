@@ -31,6 +31,8 @@ struct Prepared {
         sides;                       ///< sides that influence base or causes, as used in the fit
     identification::BaseModel base;  ///< location errors and set-up; residual in mm
     std::vector<NoiseBlock> blocks;
+    std::vector<Eigen::Index> cycle;  ///< of a laser test (diagnosis/cycles.h); else empty
+    Eigen::VectorXd rounding_mm;  ///< deviation of each device row by its last digit, mm or rad
     Folds folds;
 };
 

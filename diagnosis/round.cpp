@@ -178,12 +178,12 @@ Eigen::VectorXd rest_of(const Prepared& p, Design& design, const Model& model) {
     return left_mm(p, design, model, solved(design, model));
 }
 
-NoiseBelief belief_of(const Prepared& p, const Eigen::VectorXd& residual_mm,
-                      const Eigen::VectorXd& sigma_mm) {
+NoiseBelief belief_of(const Prepared& p, const Eigen::VectorXd& residual_mm, const Round& round) {
     NoiseModel start;
     start.source = p.base.noise_given ? NoiseSource::given : NoiseSource::assumed;
     NoiseBelief belief;
-    belief.model = noise_from_repeats({p.replay, p.table, p.blocks}, residual_mm, sigma_mm, start);
+    belief.model = noise_from_repeats({p.replay, p.table, p.blocks, round.used, p.cycle, p.rounding_mm},
+                                      residual_mm, round.sigma_mm, start);
     switch (belief.model.source) {
         case NoiseSource::repeats:
             belief.prior.spread = std::max(0.03, 0.5 * belief.model.doubt);

@@ -17,7 +17,7 @@ struct Round {
 
 /// The noise told by repeats beside `residual_mm`, or stated, or assumed.
 NoiseBelief belief_of(const Prepared& prepared, const Eigen::VectorXd& residual_mm,
-                      const Eigen::VectorXd& sigma_mm);
+                      const Round& round);
 
 /// Leaves these device rows out of a round.
 void leave_out(const Prepared& prepared, const std::vector<std::size_t>& rows, Round& round);

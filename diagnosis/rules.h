@@ -23,6 +23,8 @@ constexpr double least_driver = 0.08;    ///< of the noise variance: a single dr
                                          ///< gap
 constexpr double large_zero = 1.0;       ///< rms of a zero, in sigma, above which it is part of the
                                          ///< gap
+constexpr double large_cycle = 3.0;  ///< ... of the cycles of a laser test: its few zeros wander
+                                     ///< with the air and the frame, and are known well
 
 constexpr double explained = 0.8, partly = 0.5;  ///< of H
 constexpr double between_part = 0.2;   ///< maximum part of the gap carried by tables that do not

@@ -70,21 +70,36 @@ Model in_other_form(Design& design, const SearchSetting& setting, OffersBeside& 
     return best;
 }
 
-/// One step: the best few offers are tuned, the best score stays.
-bool grow(Design& design, const SearchSetting& setting, Model& model, bool with_zeros) {
+/// The best of a model and of those with one of the best few offers, tuned. `seen`: the same model
+/// with the noise under which the offers are weighed.
+Model stepped(Design& design, const SearchSetting& setting, const Model& model, const Model& seen,
+              bool with_zeros) {
     Model best = model;
     std::size_t count = 0;
-    OffersBeside beside(design, model);
+    OffersBeside beside(design, seen);
     for (const Offer& offer : beside.all()) {
         if (count == tried || offer.gain.best + design.group(offer.group).log_prior < 0.0) break;
         if (!with_zeros && design.group(offer.group).kind == GroupKind::offset) continue;
         ++count;
         const double hoped = offer.gain.best + design.group(offer.group).log_prior + tuning_gain;
         if (model.score + hoped < best.score) continue;
-        Model trial = tuned(design, setting, with(model, offer), 1);
+        Model trial = tuned(design, setting, with(seen, offer), 1);
         if (trial.score > best.score + 1e-6) best = std::move(trial);
     }
-    if (count > 0) best = in_other_form(design, setting, beside, model, std::move(best));
+    return count > 0 ? in_other_form(design, setting, beside, seen, std::move(best)) : best;
+}
+
+/// One step. Of few readings without repeats, noise may take all that an effect would explain:
+/// before the search ends the offers are weighed under the noise that is expected, too.
+bool grow(Design& design, const SearchSetting& setting, Model& model, bool with_zeros) {
+    constexpr double larger = 1.5;
+    Model best = stepped(design, setting, model, model, with_zeros);
+    const double expected = std::exp(setting.noise.log_mean);
+    if (best.members == model.members && model.variances.nu > larger * expected) {
+        Model sharp = model;
+        sharp.variances.nu = expected;
+        best = stepped(design, setting, model, sharp, with_zeros);
+    }
     if (best.members == model.members) return false;
     if (best.members.size() > model.members.size())
         best = refined_last(design, setting, std::move(best));

@@ -34,7 +34,8 @@ constexpr Family families[] = {
     {EffectKind::radial, true, false, false, false, 24, 12, 3},
     {EffectKind::axial, true, true, false, false, 24, 12, 2},
     {EffectKind::tilt, true, false, true, false, 24, 12, 2}};
-constexpr double whole_turn_rad = 5.0;  ///< a wider range counts as a whole turn
+constexpr std::size_t most_targets = 128;  ///< of a table with a value for each
+constexpr double whole_turn_rad = 5.0;     ///< a wider range counts as a whole turn
 constexpr double least_range_mm = 1.0, least_range_rad = 0.05;
 constexpr int last_order = 24;
 constexpr int last_single_order = 8;
@@ -95,12 +96,18 @@ struct Shape {
     double log_prior = 0.0;
 };
 
-/// `owned`: the textbook form at the knots.
+/// `owned`: the textbook form at the knots. `each`: one of the shapes has a value of its own at
+/// each knot, as many as there are: what a truncated one lacks would be taken for a ripple.
 std::vector<Shape> shapes_at_knots(const Family& family, const std::vector<double>& knots,
-                                   const Eigen::MatrixXd& owned) {
+                                   const Eigen::MatrixXd& owned, bool each) {
     std::vector<Shape> shapes;
-    for (const double length : estimation::correlation_lengths(knots))
-        shapes.push_back({estimation::smooth_shapes(knots, length, owned, family.shapes)});
+    const std::vector<double> lengths = estimation::correlation_lengths(knots, each);
+    for (const double length : lengths) {
+        const bool whole = each && length == lengths.back();
+        shapes.push_back({estimation::smooth_shapes(
+            knots, length, owned,
+            whole ? static_cast<Eigen::Index>(knots.size()) : family.shapes)});
+    }
     std::erase_if(shapes, [](const Shape& s) { return s.columns.cols() == 0; });
     for (Shape& s : shapes) s.log_prior = -std::log(static_cast<double>(shapes.size()));
     return shapes;
@@ -143,15 +150,52 @@ bool sees_both_sides(const Prepared& p, const TableForm& table) {
     return both >= 4 && 2 * static_cast<std::size_t>(both) >= sides.size();
 }
 
-TableForm form_of(const Family& family, const kinematics::AxisGeometry& axis,
-                  const std::vector<double>& places) {
-    TableForm table{family.motion, axis, directions_of(family, axis), {}, 0, 0};
+/// The targets of a laser or an autocollimator, if they were visited again; else none. Other
+/// readings have no targets, and at a place read once an error of its own is noise.
+std::vector<double> targets_of(const Prepared& p, const std::vector<double>& places) {
+    for (std::size_t i = 0; i < p.replay.size(); ++i) {
+        const records::Device device = p.replay.contact(i).device;
+        if (device != records::Device::linear && device != records::Device::angle) return {};
+    }
+    std::vector<double> targets = estimation::knots_of(places, most_targets + 1);
+    const bool again = places.size() >= 2 * targets.size();
+    return again && targets.size() <= most_targets ? targets : std::vector<double>{};
+}
+
+/// An error along the axis with a value of its own at each target.
+bool has_targets(const Prepared& p, const Family& family, const TableForm& table) {
+    return family.along && family.motion == EffectKind::positioning &&
+           table.knots == targets_of(p, places_of(p, table.axis.axis));
+}
+
+bool is_whole_turn(const kinematics::AxisGeometry& axis, const std::vector<double>& places) {
     const auto [low, high] = std::minmax_element(places.begin(), places.end());
-    if (axis.rotary && *high - *low > whole_turn_rad) {
+    return axis.rotary && *high - *low > whole_turn_rad;
+}
+
+/// The highest harmonic that positions in equal steps show; above it are aliases of lower ones.
+int last_on_grid(const std::vector<double>& places) {
+    constexpr double even = 1e-3;
+    const std::vector<double> steps = estimation::knots_of(places, 2 * last_order + 2);
+    if (steps.size() < 2 || steps.size() > 2 * last_order) return last_order;
+    const double step = steps[1] - steps[0];
+    for (std::size_t k = 1; k < steps.size(); ++k)
+        if (std::abs(steps[k] - steps[k - 1] - step) > even * step) return last_order;
+    return std::max(1, static_cast<int>(std::floor(pi / step + even)));
+}
+
+TableForm form_of(const Prepared& p, const Family& family, const kinematics::AxisGeometry& axis) {
+    TableForm table{family.motion, axis, directions_of(family, axis), {}, 0, 0};
+    const std::vector<double> places = places_of(p, axis.axis);
+    if (is_whole_turn(axis, places)) {
         table.first_order = family.owned + 1;
-        table.orders = (family.shapes >= 24 ? last_order : last_order / 2) - family.owned;
+        const int last = family.shapes >= 24 ? last_order : last_order / 2;
+        table.orders = std::min(last, last_on_grid(places)) - family.owned;
     } else {
         table.knots = estimation::knots_of(places, family.knots);
+        if (family.along && family.motion == EffectKind::positioning)
+            if (auto targets = targets_of(p, places); !targets.empty())
+                table.knots = std::move(targets);
     }
     return table;
 }
@@ -161,18 +205,23 @@ std::size_t least_knots(const Family& family) {
     return family.motion == EffectKind::positioning ? 3 : 4;
 }
 
-void add_family(Design& design, const Prepared& p, const Whitener& whitener, const Family& family,
-                const kinematics::AxisGeometry& axis) {
-    TableForm table = form_of(family, axis, places_of(p, axis.axis));
-    if (table.orders == 0 && table.knots.size() < least_knots(family)) return;
-    if (family.motion == EffectKind::backlash) {
-        table.play = effects::find_effect(p.catalogue, family.motion, axis.axis);
-        if (!table.play || !sees_both_sides(p, table)) return;
-    }
+/// The shapes of a free form; of a turn with knots, which has its harmonics beside it, that alone
+/// with a value of its own at each.
+std::vector<Shape> shapes_of(const Prepared& p, const Family& family, const TableForm& table,
+                             const Eigen::MatrixXd& owned) {
+    if (table.knots.empty()) return shapes_of_turn(table);
+    std::vector<Shape> shapes =
+        shapes_at_knots(family, table.knots, owned, has_targets(p, family, table));
+    if (is_whole_turn(table.axis, table.knots) && !shapes.empty())
+        shapes = {{std::move(shapes.back().columns), std::log(0.5)}};
+    return shapes;
+}
+
+void add_table(Design& design, const Prepared& p, const Whitener& whitener, const Family& family,
+               const TableForm& table) {
     const Eigen::MatrixXd owned =
         table.knots.empty() ? Eigen::MatrixXd() : owned_at(p, family, table);
-    const std::vector<Shape> shapes =
-        table.knots.empty() ? shapes_of_turn(table) : shapes_at_knots(family, table.knots, owned);
+    const std::vector<Shape> shapes = shapes_of(p, family, table, owned);
     if (shapes.empty()) return;
     Eigen::MatrixXd white = table_features(p.replay, p.base.gradient, table);
     whitener.apply(white);
@@ -180,7 +229,7 @@ void add_family(Design& design, const Prepared& p, const Whitener& whitener, con
     const auto group_of = [&](const Eigen::MatrixXd& shape) {
         ColumnGroup group;
         group.kind = GroupKind::table;
-        group.name = effects::effect_name(axis.name, family.motion);
+        group.name = effects::effect_name(table.axis.name, family.motion);
         group.table = table;
         group.shape = for_each_direction(shape, table.directions.size());
         for (Eigen::Index k = 0; k < white.cols(); ++k) group.features.push_back(first + k);
@@ -196,6 +245,21 @@ void add_family(Design& design, const Prepared& p, const Whitener& whitener, con
     line.is_line = true;
     line.component = "line";  // so that it is no other form of the table
     design.hide(design.add(std::move(line)));
+}
+
+void add_family(Design& design, const Prepared& p, const Whitener& whitener, const Family& family,
+                const kinematics::AxisGeometry& axis) {
+    TableForm table = form_of(p, family, axis);
+    if (table.orders <= 0 && table.knots.size() < least_knots(family)) return;
+    if (family.motion == EffectKind::backlash) {
+        table.play = effects::find_effect(p.catalogue, family.motion, axis.axis);
+        if (!table.play || !sees_both_sides(p, table)) return;
+    }
+    add_table(design, p, whitener, family, table);
+    if (table.orders == 0 || family.motion != EffectKind::positioning) return;
+    table.orders = table.first_order = 0;
+    table.knots = targets_of(p, places_of(p, axis.axis));
+    if (table.knots.size() >= least_knots(family)) add_table(design, p, whitener, family, table);
 }
 
 }  // namespace

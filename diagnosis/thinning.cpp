@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <map>
 
+#include "records/samples.h"
+
 namespace trunnion::diagnosis {
 namespace {
 
@@ -87,6 +89,25 @@ class Thinner {
     std::vector<records::Reading> kept_, waiting_;
 };
 
+/// Tells the commanded motion of the rows of a servo log: between fewer rows its differences are
+/// others.
+records::ReadingTable with_told_motion(records::ReadingTable table) {
+    const std::vector<AxisSample> samples = records::samples_of(table);
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
+        records::Reading& row = table.rows[i];
+        const auto axis = table.names.find(row.feature);
+        if (row.device != Device::axis || !axis) continue;
+        if (!row.velocity_mm_s) row.velocity_mm_s = samples[i].velocity[*axis];
+        if (!row.acceleration_mm_s2) row.acceleration_mm_s2 = samples[i].acceleration[*axis];
+    }
+    return table;
+}
+
+bool has_log(const records::ReadingTable& table) {
+    return std::any_of(table.rows.begin(), table.rows.end(),
+                       [](const records::Reading& row) { return row.device == Device::axis; });
+}
+
 }  // namespace
 
 std::optional<records::ReadingTable> thinned(const records::ReadingTable& table, std::size_t most) {
@@ -106,7 +127,9 @@ std::optional<records::ReadingTable> thinned(const records::ReadingTable& table,
     fewer.axes = table.axes;
     fewer.names = table.names;
     fewer.optional_columns = table.optional_columns;
-    fewer.rows = Thinner(table, (all + most - 1) / most).rows();
+    const std::size_t step = (all + most - 1) / most;
+    fewer.rows = has_log(table) ? Thinner(with_told_motion(table), step).rows()
+                                : Thinner(table, step).rows();
     return fewer;
 }
 

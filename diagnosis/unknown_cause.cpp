@@ -17,6 +17,12 @@ bool is_spoiled(const Outcome& f) {
            rules::most_outliers * static_cast<double>(f.used.size());
 }
 
+/// True where the noise is assumed, and what is left of the readings follows nothing.
+bool is_unstated_scatter(const Outcome& f, const Diagnosis& d) {
+    return f.noise.model.source == NoiseSource::assumed && d.where.empty() &&
+           f.model.members.empty();
+}
+
 /// Probability that something is missing in the model. What left-out readings do not confirm may
 /// also be what the others leave uncertain: then the residuals are no larger than that, within the
 /// belief in the noise. The Bayes factor of a p-value is at most 1 / (-e p ln p) (Sellke, Bayarri
@@ -83,6 +89,13 @@ Cause unknown_cause(const Outcome& f, const Diagnosis& d) {
             "something "
             "disturbs the readings",
             f.judgement.scatter);
+    } else if (is_unstated_scatter(f, d) && places.empty()) {
+        // Nobody states the noise: it may be that large as well as not.
+        cause.probability = std::min(cause.probability.value(), 0.5);
+        cause.what =
+            "More scatter than is usual of the device, without structure: no effect, position or "
+            "time goes with it. It may be noise, which nobody states here: give it in a column "
+            "sigma_mm or in [model] of the setup, or repeat readings, and it is known";
     } else if (places.empty() && cause.probability < 0.5)
         cause.what = "What left-out readings do not confirm, and the others leave open";
     else if (cause.rivals.empty())

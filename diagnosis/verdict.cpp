@@ -31,8 +31,9 @@ std::vector<bool> large_zeros(Design& design, const Model& model) {
     const Eigen::MatrixXd parts = contributions(design, model, fit_of(design, model));
     return marked(design, model, [&](GroupKind kind, std::size_t k) {
         const double square = parts.col(static_cast<Eigen::Index>(k)).squaredNorm();
-        return kind == GroupKind::offset &&
-               square > rules::large_zero * rules::large_zero * design.rows();
+        const double large =
+            design.group(model.members[k]).of_cycles ? rules::large_cycle : rules::large_zero;
+        return kind == GroupKind::offset && square > large * large * design.rows();
     });
 }
 

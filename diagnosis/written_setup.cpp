@@ -157,13 +157,13 @@ Model with_textbook_forms(const Outcome& f, Model model) {
     return model;
 }
 
-struct Candidate {
+struct WrittenCandidate {
     Model model;
     bool found = true;  ///< false: with forms that the search did not choose
 };
 
 /// The found model without the parts that do not predict, the most complete one first.
-std::vector<Candidate> candidates_of(const Outcome& f, const Folds& paths) {
+std::vector<WrittenCandidate> candidates_of(const Outcome& f, const Folds& paths) {
     const std::vector<bool> kept = predicting_elsewhere(f, paths);
     const auto all = [&](GroupKind, std::size_t m) { return bool{kept[position_of(f, m)]}; };
     const auto causes = [&](GroupKind k, std::size_t m) {
@@ -175,10 +175,11 @@ std::vector<Candidate> candidates_of(const Outcome& f, const Folds& paths) {
     const auto named_causes = [&](GroupKind k, std::size_t m) {
         return named(k, m) && k != GroupKind::driver;
     };
-    std::vector<Candidate> list;
+    std::vector<WrittenCandidate> list;
     const auto add = [&](Model model, bool found) {
-        if (std::any_of(list.begin(), list.end(),
-                        [&](const Candidate& c) { return c.model.members == model.members; }))
+        if (std::any_of(list.begin(), list.end(), [&](const WrittenCandidate& c) {
+                return c.model.members == model.members;
+            }))
             return;
         if (model.members != f.model.members)
             model = tuned(f.design, f.setting, std::move(model), 2);

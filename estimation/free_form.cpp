@@ -41,7 +41,7 @@ std::pair<Eigen::Index, double> place_between(const std::vector<double>& knots, 
 
 constexpr std::size_t few_places = 25;  ///< that a table may contain one by one
 
-std::vector<double> correlation_lengths(const std::vector<double>& knots) {
+std::vector<double> correlation_lengths(const std::vector<double>& knots, bool each) {
     std::vector<double> spacing, lengths;
     for (std::size_t k = 1; k < knots.size(); ++k) spacing.push_back(knots[k] - knots[k - 1]);
     if (spacing.empty()) return {};
@@ -49,7 +49,7 @@ std::vector<double> correlation_lengths(const std::vector<double>& knots) {
     for (double part = 0.5; part > 0.06; part *= 0.5)
         if (part * range >= least) lengths.push_back(part * range);
     // A screw error may change from target to target.
-    if (knots.size() <= few_places && (lengths.empty() || lengths.back() > 1.25 * least))
+    if ((each || knots.size() <= few_places) && (lengths.empty() || lengths.back() > 1.25 * least))
         lengths.push_back(least);
     return lengths;
 }

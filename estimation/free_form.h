@@ -23,8 +23,9 @@ std::vector<double> knots_of(std::vector<double> places, std::size_t most);
 std::pair<Eigen::Index, double> place_between(const std::vector<double>& knots, double q);
 
 /// Candidate correlation lengths: 1/2, 1/4, 1/8, 1/16 of the range, as far as they are at least 0.6
-/// of the median knot spacing; of few knots this too, if none is near it.
-std::vector<double> correlation_lengths(const std::vector<double>& knots);
+/// of the median knot spacing; of few knots, or where `each` may have a value of its own, this too,
+/// if none is near it.
+std::vector<double> correlation_lengths(const std::vector<double>& knots, bool each = false);
 
 /// Shapes of one correlation length at the knots, K x columns. `owned` (K x p): functions to which
 /// the shapes are made orthogonal. At most `most` columns; shapes with less than 1e-4 of the

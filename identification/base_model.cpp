@@ -268,7 +268,7 @@ RowNoise stated_noise(const setup::Setup& setup, const records::ReadingTable& ta
 RowNoise row_noise(const setup::Setup& setup, const records::ReadingTable& table,
                    const emulator::Replay& replay) {
     RowNoise noise = stated_noise(setup, table, replay);
-    add_rounding(setup, table, replay, noise.sigma_mm);
+    add_rounding(table, replay, noise.sigma_mm);
     add_rest_scatter(setup, table, replay, noise.sigma_mm);
     return noise;
 }

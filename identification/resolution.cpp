@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -57,31 +58,97 @@ double decimal_step(const std::vector<double>& values) {
     return 0.0;
 }
 
-void add_rounding(const setup::Setup& setup, const records::ReadingTable& table,
-                  const emulator::Replay& replay, Eigen::VectorXd& sigma_mm) {
+namespace {
+
+/// Sorts, and keeps one of values that differ by the rounding of a sum only.
+void sort_apart(std::vector<double>& values) {
+    constexpr double rounding = 1e-11;
+    std::sort(values.begin(), values.end());
+    const auto same = [](double a, double b) {
+        return b - a <= rounding * std::max(1.0, std::abs(b));
+    };
+    values.erase(std::unique(values.begin(), values.end(), same), values.end());
+}
+
+}  // namespace
+
+double counter_step(std::vector<double> values) {
+    constexpr std::size_t fewest = 10;
+    constexpr double near = 0.25, exact = 1e-6;  // of a step: on the way, and in the end
+    const double digit = decimal_step(values);
+    sort_apart(values);
+    if (values.size() < fewest) return 0.0;
+    double step = HUGE_VAL;
+    for (std::size_t k = 1; k < values.size(); ++k)
+        step = std::min(step, values[k] - values[k - 1]);
+    // The step is refined as the values grow: its first estimate has the error of their digits.
+    double along = 0.0, square = 0.0;
+    for (const double v : values) {
+        const double way = v - values.front(), count = std::round(way / step);
+        if (!(std::abs(way - count * step) <= near * step)) return 0.0;
+        along += way * count;
+        square += count * count;
+        if (square > 0.0) step = along / square;
+    }
+    double worst = 0.0;
+    for (const double v : values) {
+        const double count = (v - values.front()) / step;
+        worst = std::max(worst, std::abs(count - std::round(count)));
+    }
+    return worst <= exact + 0.6 * digit / step ? step : 0.0;  // rounded, the first value too
+}
+
+namespace {
+
+/// Where, and for a log when, a value was read.
+using Place = std::pair<std::array<double, axis_count>, double>;
+
+/// True when each value was read twice on average, at different places or times.
+bool are_met_again(std::vector<double> values, const std::set<Place>& places) {
+    sort_apart(values);
+    return places.size() >= 2 * values.size();
+}
+
+}  // namespace
+
+Eigen::VectorXd rounding(const records::ReadingTable& table, const emulator::Replay& replay) {
     using Key = std::tuple<records::Device, std::string, int>;
     std::map<Key, std::vector<std::size_t>> alike;
-    for (std::size_t i = 0; i < replay.size(); ++i) {
-        const records::Reading& row = table.rows[replay.table_row(i)];
-        if (!row.value_mm || (row.sigma_mm && *row.sigma_mm > 0.0)) continue;
-        if (row.device == records::Device::axis || !emulator::device_noise(setup.model, row).given)
+    for (std::size_t i = 0; i < replay.size(); ++i)
+        if (const records::Reading& row = table.rows[replay.table_row(i)]; row.value_mm)
             alike[{row.device, row.feature, digits_of(row, replay.contact(i))}].push_back(i);
-    }
+    Eigen::VectorXd spread_mm = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(replay.size()));
     for (const auto& [of, rows] : alike) {
-        const bool angular = table.rows[replay.table_row(rows.front())].angular;
-        std::vector<double> values;
-        for (const std::size_t i : rows)
-            add_numbers(table.rows[replay.table_row(i)], replay.contact(i), values);
+        const records::Reading& first = table.rows[replay.table_row(rows.front())];
+        const bool log = first.device == records::Device::axis;
+        std::vector<double> values, counts;
+        std::set<Place> places;
+        for (const std::size_t i : rows) {
+            const records::Reading& row = table.rows[replay.table_row(i)];
+            add_numbers(row, replay.contact(i), values);
+            counts.push_back(values.back());
+            places.insert({row.commanded.value, log ? row.time_s : 0.0});
+        }
+        if (!are_met_again(counts, places)) counts.clear();
         // A log that stands still most of the time repeats a few round positions.
-        if (table.rows[replay.table_row(rows.front())].device == records::Device::axis) {
+        if (log) {
             std::sort(values.begin(), values.end());
             values.erase(std::unique(values.begin(), values.end()), values.end());
         }
-        const double spread = spread_of(decimal_step(values));
-        for (const std::size_t i : rows) {
-            double& sigma = sigma_mm(static_cast<Eigen::Index>(i));
-            sigma = std::max(sigma, angular ? rad_from_deg(spread) : spread);
-        }
+        const double spread =
+            spread_of(std::max(decimal_step(values), counter_step(std::move(counts))));
+        for (const std::size_t i : rows)
+            spread_mm(static_cast<Eigen::Index>(i)) = first.angular ? rad_from_deg(spread) : spread;
+    }
+    return spread_mm;
+}
+
+void add_rounding(const records::ReadingTable& table, const emulator::Replay& replay,
+                  Eigen::VectorXd& sigma_mm) {
+    const Eigen::VectorXd spread_mm = rounding(table, replay);
+    for (Eigen::Index i = 0; i < sigma_mm.size(); ++i) {
+        const auto& stated = table.rows[replay.table_row(static_cast<std::size_t>(i))].sigma_mm;
+        if (!stated || *stated <= 0.0) sigma_mm(i) = std::max(sigma_mm(i), spread_mm(i));
     }
 }
 

@@ -13,13 +13,24 @@ namespace trunnion::identification {
 /// no value. Returns 0 where no step is one, and for fewer than five values.
 double decimal_step(const std::vector<double>& values);
 
-/// Raises the standard deviation (mm, rad) of rows whose noise nobody states to 1 / sqrt(12) of the
-/// last digit of their values, in mm or degrees. Of a servo log the digit is that of commanded and
-/// actual positions, and counts beside what the setup states of the encoder, too: logs are kept
-/// with fewer digits than encoders have. Each device and feature has a digit of its own; of a servo
-/// log each number of digits before the decimal point, because logs keep so many digits.
-void add_rounding(const setup::Setup& setup, const records::ReadingTable& table,
-                  const emulator::Replay& replay, Eigen::VectorXd& sigma_mm);
+/// The step of a counter: that of which all values are multiples from the first one on, within the
+/// rounding of their last decimal digit. 0 where there is none, and for fewer than
+/// ten different values.
+double counter_step(std::vector<double> values);
+
+/// Standard deviation of each device row by the last digit or count of its values, mm or rad: step
+/// / sqrt(12). Steps are looked for in mm and in degrees. Of a servo log the digit is that of
+/// commanded and actual positions, the count that of actual ones. Each device and feature has a
+/// step of its own; of a servo log each number of digits before the decimal point, because logs
+/// keep so many digits. Values that grow in even steps with the position are no counts: each count
+/// must have been read at two places (of a log: times) on average. 0 for rows without a value or a
+/// step.
+Eigen::VectorXd rounding(const records::ReadingTable& table, const emulator::Replay& replay);
+
+/// Raises the standard deviation of rows to that of their rounding, except where a row states its
+/// own: what a setup states of a device may be kept with fewer digits.
+void add_rounding(const records::ReadingTable& table, const emulator::Replay& replay,
+                  Eigen::VectorXd& sigma_mm);
 
 /// Raises the standard deviation of the rows of a servo log whose noise nobody states to what
 /// successive rows of an axis scatter by while it is commanded to stand still, if that is twice as

@@ -56,8 +56,9 @@ double at_place(const ErrorCurve& curve, double q) {
     return 0.0;
 }
 
-ValueAndSlope table(const ErrorCurve& curve, double q) {
-    if (curve.interpolation == ErrorCurve::Interpolation::none) return {at_place(curve, q), 0.0};
+ValueAndSlope table(const ErrorCurve& curve, double q, double commanded) {
+    if (curve.interpolation == ErrorCurve::Interpolation::none)
+        return {at_place(curve, commanded), 0.0};
     const auto& x = curve.at;
     if (q <= x.front()) return {curve.value.front(), 0.0};
     if (q >= x.back()) return {curve.value.back(), 0.0};
@@ -119,9 +120,9 @@ bool ErrorCurve::is_zero() const {
     return constant == 0.0 && slope == 0.0 && harmonics.empty() && at.empty();
 }
 
-double ErrorCurve::operator()(double q) const {
+double ErrorCurve::operator()(double q, double commanded) const {
     double sum = constant + slope * q;
-    if (!at.empty()) sum += table(*this, q).value;
+    if (!at.empty()) sum += table(*this, q, commanded).value;
     const double k = harmonics.empty() ? 0.0 : wave_number(*this);
     for (const Harmonic& h : harmonics)
         sum += h.cosine * std::cos(h.order * k * q) + h.sine * std::sin(h.order * k * q);
@@ -130,7 +131,7 @@ double ErrorCurve::operator()(double q) const {
 
 double ErrorCurve::derivative(double q) const {
     double sum = slope;
-    if (!at.empty()) sum += table(*this, q).slope;
+    if (!at.empty()) sum += table(*this, q, q).slope;
     const double k = harmonics.empty() ? 0.0 : wave_number(*this);
     for (const Harmonic& h : harmonics) {
         const double w = h.order * k;

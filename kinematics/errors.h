@@ -63,9 +63,11 @@ struct ErrorCurve {
     Interpolation interpolation = Interpolation::linear;
 
     bool is_zero() const;
-    /// Beyond the ends of the table its contribution is constant. Without interpolation a position
-    /// is met within a hundredth of its distance to the nearest other one.
-    double operator()(double q) const;
+    /// Beyond the ends of the table its contribution is constant. Without interpolation the error
+    /// belongs to the places that a program commands: `commanded` meets one within a hundredth of
+    /// its distance to the nearest other one, wherever other errors move the axis to (`q`).
+    double operator()(double q, double commanded) const;
+    double operator()(double q) const { return (*this)(q, q); }
     double derivative(double q) const;  ///< d error / d q, 0 from the table beyond its ends
 };
 

@@ -24,10 +24,10 @@ Matrix3 turn(const Vector3& u, double angle_rad) {
     return r;
 }
 
-SmallMotion motion_of(const Link& link, double q, const SmallMotion* extra) {
+SmallMotion motion_of(const Link& link, const LinkPosition& at, const SmallMotion* extra) {
     std::array<double, 6> value{};
     for (std::size_t k = 0; k < 6; ++k)
-        if (link.motions >> k & 1) value[k] = (*link.curves)[k](q);
+        if (link.motions >> k & 1) value[k] = (*link.curves)[k](at.actual, at.commanded);
     SmallMotion motion{first_three(value), last_three(value)};
     if (extra) motion += *extra;
     return motion;
@@ -54,8 +54,9 @@ const SmallMotion* extra_of(const Perturbation* extra, Axis axis) {
     return motion.is_zero() ? nullptr : &motion;
 }
 
-double position_of(const AxisPositions& commanded, const Perturbation* extra, Axis axis) {
-    return extra ? commanded[axis] + extra->axis[axis] : commanded[axis];
+LinkPosition position_of(const AxisPositions& commanded, const Perturbation* extra, Axis axis) {
+    const double at = commanded[axis];
+    return {at, extra ? at + extra->axis[axis] : at};
 }
 
 Pose walk(const std::vector<Link>& links, const AxisPositions& q, const Perturbation* extra) {
@@ -143,11 +144,11 @@ Link make_link(const AxisGeometry& geometry, const AxisErrors& errors) {
     return link;
 }
 
-void carry(const Link& link, double q, const SmallMotion* extra, Pose& pose) {
+void carry(const Link& link, const LinkPosition& at, const SmallMotion* extra, Pose& pose) {
     const auto over = link.rotary ? carry_rotary : carry_linear;
-    if (link.motions == 0 && !extra) return over(link, q, nullptr, pose);
-    const SmallMotion motion = motion_of(link, q, extra);
-    over(link, q, &motion, pose);
+    if (link.motions == 0 && !extra) return over(link, at.actual, nullptr, pose);
+    const SmallMotion motion = motion_of(link, at, extra);
+    over(link, at.actual, &motion, pose);
 }
 
 ForwardModel::ForwardModel(const Machine& machine)

@@ -30,9 +30,14 @@ Link make_link(const AxisGeometry& geometry, const AxisErrors& errors);
 SmallMotion spindle_location(const AxisErrors& spindle);
 SmallMotion spindle_motion(const AxisErrors& spindle, SpindleAngle spindle_rad);
 
-/// Appends one axis at position `q` (mm or rad) to `pose`, the end of the chain so far, counted
-/// from the bed outwards. `extra` (nullptr: none) is added to the error motion of the axis.
-void carry(const Link& link, double q, const SmallMotion* extra, Pose& pose);
+/// Position of an axis, mm or rad: where a program sends it, and where it goes.
+struct LinkPosition {
+    double commanded = 0.0, actual = 0.0;
+};
+
+/// Appends one axis to `pose`, the end of the chain so far, counted from the bed outwards. `extra`
+/// (nullptr: none) is added to the error motion of the axis.
+void carry(const Link& link, const LinkPosition& at, const SmallMotion* extra, Pose& pose);
 
 /// A machine prepared for many evaluations: no allocation, zero errors are skipped. Gives the same
 /// poses as Machine. Keeps a copy of the error curves, so later changes of the machine have no

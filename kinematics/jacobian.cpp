@@ -91,7 +91,7 @@ Side differentiate(const std::vector<AxisGeometry>& axes, const GeometricErrors&
         const AxisErrors& own = errors.axis[index_of(axis.axis)];
         const double position = q[axis.axis];
         side.links.push_back((axis.rotary ? rotary : linear)(axis, own, position, side.end));
-        carry(make_link(axis, own), position, nullptr, side.end);
+        carry(make_link(axis, own), {position, position}, nullptr, side.end);
     }
     return side;
 }

@@ -152,6 +152,7 @@ std::string diagnosis_json(const diagnosis::Diagnosis& d, const std::vector<File
               {"inseparable", json_inseparable(d.inseparable)},
               {"readings", d.readings}};
     if (!d.sessions.empty()) json["over"] = over_of(d);
+    if (d.copies > 0) json["copies"] = d.copies;
     if (d.chosen_from > 0) json["chosen_from"] = d.chosen_from;
     if (d.unfinished) json["unfinished"] = true;
     json["outliers"] = d.outliers;

@@ -238,6 +238,9 @@ std::string small_print(const diagnosis::Diagnosis& d) {
           "% interval.");
     if (d.outliers > 0)
         entry("Set aside", fmt::format("{} readings that fit nothing.", d.outliers));
+    if (d.copies > 0)
+        entry("Copies",
+              fmt::format("{} more repeat the one before exactly and do not count.", d.copies));
     if (!d.unseen.empty())
         entry("Not to be seen here",
               escape_xml(fmt::format("{}", fmt::join(d.unseen, ", "))) + ".");

@@ -74,6 +74,9 @@ std::string diagnosis_text(const diagnosis::Diagnosis& d) {
                       0);
     for (const std::string& sentence : d.set_up_words) text += paragraph(sentence, 2);
     for (const identification::FoundSide& s : d.sides) text += fmt::format("  {}\n", to_string(s));
+    if (d.copies > 0)
+        text += fmt::format("  {} more repeat the one before exactly: copies, which do not count\n",
+                            d.copies);
     if (d.chosen_from > 0) text += fmt::format("  chosen evenly from {} readings\n", d.chosen_from);
     for (const diagnosis::DriverShare& w : d.where) text += fmt::format("  {}\n", w.text);
     for (const diagnosis::Cause& cause : d.causes) text += cause_text(d, cause);

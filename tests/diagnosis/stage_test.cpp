@@ -126,6 +126,98 @@ TEST_CASE("an error that changes from target to target is a table, and the backl
     }
 }
 
+// The backlash moves the axis by 2.6 % of the way to the next place.
+TEST_CASE("a table for places alone is met where the program sends the axis",
+          "[diagnosis][stage]") {
+    Truth truth = rough(9, 16);
+    for (double& at_mm : truth.at_mm) at_mm *= 0.1;
+    const diagnosis::Diagnosis d = diagnosis::diagnose(stage(), laser(truth, 5, 3));
+    INFO(said(d));
+    REQUIRE(cause(d, "X.positioning", true));
+    REQUIRE(cause(d, "X.backlash", false));
+    CHECK_FALSE(d.between_places);
+    CHECK(left_beside(d.setup, laser(truth, 3, 99)) < 1.15 * truth.noise_mm);
+}
+
+// Half of the targets of a table that is cut are a ripple of nearly two targets.
+TEST_CASE("each of many targets may have an error of its own, which is no ripple",
+          "[diagnosis][stage]") {
+    for (const std::size_t targets : {28, 36, 60}) {
+        const Truth truth = rough(targets, 40 + static_cast<unsigned>(targets));
+        const diagnosis::Diagnosis d = diagnosis::diagnose(stage(), laser(truth, 3, 3));
+        INFO(targets);
+        INFO(said(d));
+        REQUIRE(cause(d, "X.positioning", true));
+        CHECK(cause(d, "X.positioning", true)->points.size() == targets);
+        CHECK_FALSE(cause(d, "X.cyclic", false));
+        CHECK(d.explained > 0.8);
+        CHECK(left_beside(d.setup, laser(truth, 3, 99)) < 1.25 * truth.noise_mm);
+    }
+}
+
+TEST_CASE("one spoiled reading is set aside, and the noise is that of the others",
+          "[diagnosis][stage]") {
+    const Truth truth = rough(9, 16);
+    for (const double off_mm : {0.1, 2.0}) {
+        records::ReadingTable table = laser(truth, 4, 3);
+        *table.rows[25].value_mm += off_mm;
+        const diagnosis::Diagnosis d = diagnosis::diagnose(stage(), table);
+        INFO(off_mm);
+        INFO(said(d));
+        CHECK(d.outliers == 1);
+        CHECK(d.noise_um.value() == Approx(1e3 * truth.noise_mm).epsilon(0.3));
+        REQUIRE(cause(d, "X.backlash", false));
+        CHECK(cause(d, "X.backlash", false)->parameters.front().value ==
+              Approx(truth.gap_mm).margin(0.0013));
+        CHECK(d.explained > 0.9);
+    }
+}
+
+// Between cycles the reference moves by ten times what the stage does within one.
+TEST_CASE("a zero that moves from cycle to cycle hides neither scale nor backlash",
+          "[diagnosis][stage]") {
+    Truth truth{{}, {}, -0.002, 0.0002};
+    for (int k = 0; k < 11; ++k) {
+        truth.at_mm.push_back(40.0 * k);
+        truth.error_mm.push_back(10e-6 * truth.at_mm.back());
+    }
+    records::ReadingTable table = laser(truth, 5, 3);
+    const double zero_mm[] = {0.0, 0.006, -0.005, 0.004, -0.007};
+    int reading = 0;
+    for (records::Reading& row : table.rows)
+        if (row.value_mm) *row.value_mm += zero_mm[reading++ / 22];
+    const diagnosis::Diagnosis d = diagnosis::diagnose(stage(), table);
+    INFO(said(d));
+    CHECK(d.noise_um.value() == Approx(0.2).epsilon(0.2));
+    REQUIRE(cause(d, "X.scale", false));
+    const auto& scale = cause(d, "X.scale", false)->parameters.front();
+    CHECK(std::abs(scale.value - 10.0) < 3.0 * scale.sigma);
+    REQUIRE(cause(d, "X.backlash", false));
+    const auto& gap = cause(d, "X.backlash", false)->parameters.front();
+    CHECK(std::abs(gap.value + 0.002) < 3.0 * gap.sigma);
+    CHECK(cause(d, "X.backlash", false)->probability > 0.5);
+}
+
+// Six readings out of ten are the same: the steps of the indicator, not its repeatability.
+TEST_CASE("an indicator is no better than its steps, however well it repeats",
+          "[diagnosis][stage]") {
+    constexpr double step_mm = 0.01;
+    Truth truth{{}, {}, 0.006, 0.0};
+    for (int k = 0; k < 11; ++k) {
+        truth.at_mm.push_back(40.0 * k);
+        truth.error_mm.push_back(40e-6 * truth.at_mm.back());
+    }
+    records::ReadingTable table = laser(truth, 2, 3);
+    for (records::Reading& row : table.rows)
+        if (row.value_mm) row.value_mm = step_mm * std::round(*row.value_mm / step_mm);
+    const diagnosis::Diagnosis d = diagnosis::diagnose(stage(), table);
+    INFO(said(d));
+    CHECK(d.noise_um.value() == Approx(1e3 * step_mm / std::sqrt(12.0)).epsilon(0.01));
+    REQUIRE(cause(d, "X.scale", false));
+    const auto& scale = cause(d, "X.scale", false)->parameters.front();
+    CHECK(std::abs(scale.value - 40.0) < 3.0 * scale.sigma);
+}
+
 TEST_CASE("the noise of a laser test is that of its own repeats", "[diagnosis][stage]") {
     Truth truth = rough(5, 1);
     for (const double noise_mm : {0.0001, 0.002, 0.02}) {  // usual: 0.0005

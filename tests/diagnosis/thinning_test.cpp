@@ -76,6 +76,34 @@ TEST_CASE("the readings of a pose are kept together or left out together", "[dia
     }
 }
 
+TEST_CASE("rows of a servo log keep the speed of the whole log", "[diagnosis]") {
+    records::ReadingTable table;
+    table.path = "log.csv";
+    table.axes = {Axis::X, Axis::Y, Axis::Z};
+    for (int k = 0; k < 6000; ++k) {
+        records::Reading row;
+        row.index = k;
+        row.time_s = 0.005 * k;
+        row.test = "log";
+        row.device = records::Device::axis;
+        row.feature = "X";
+        row.commanded[Axis::X] = 40.0 * std::sin(6.28 * row.time_s);
+        row.value_mm = 0.0;
+        table.rows.push_back(row);
+    }
+    const auto all = records::samples_of(table);
+    const auto fewer = diagnosis::thinned(table, 2000);
+    REQUIRE(fewer);
+    CHECK(fewer->rows.size() < 2500);
+    const auto kept = records::samples_of(*fewer);
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+        const AxisSample& whole = all[static_cast<std::size_t>(fewer->rows[i].index)];
+        CHECK(kept[i].velocity[Axis::X] == whole.velocity[Axis::X]);
+        CHECK(kept[i].acceleration[Axis::X] == whole.acceleration[Axis::X]);
+        CHECK(kept[i].travel[0] == whole.travel[0]);
+    }
+}
+
 TEST_CASE("a device row without a value is not thinned away", "[diagnosis]") {
     const setup::Setup setup = campaign::bc_setup();
     records::ReadingTable table = campaign::empty_table(setup);

@@ -145,11 +145,13 @@ TEST_CASE("repeated visits tell what touches share, and whitening takes it out",
     REQUIRE(blocks.size() == 120);
     const auto rows = static_cast<Eigen::Index>(replay.size());
     const Eigen::VectorXd sigma_mm = Eigen::VectorXd::Constant(rows, touch_sigma_mm);
+    const std::vector<bool> all(replay.size(), true);
+    const Eigen::VectorXd no_digits = Eigen::VectorXd::Zero(rows);
     for (const double shared : {0.0, 0.6}) {
         INFO(shared);
         const Eigen::VectorXd residual_mm = t.noise(replay, blocks, {1.3, shared, 0.0});
-        const diagnosis::NoiseModel model =
-            diagnosis::noise_from_repeats({replay, t.table, blocks}, residual_mm, sigma_mm, {});
+        const diagnosis::NoiseModel model = diagnosis::noise_from_repeats(
+            {replay, t.table, blocks, all, {}, no_digits}, residual_mm, sigma_mm, {});
         CHECK(model.source == diagnosis::NoiseSource::repeats);
         CHECK(model.touch.scale == Approx(1.3).epsilon(0.1));
         CHECK(model.touch.shared == Approx(shared).margin(0.12));

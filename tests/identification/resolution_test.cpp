@@ -67,6 +67,66 @@ TEST_CASE("the last digit of values", "[identification]") {
     CHECK(decimal_step(many) == 0.1);
 }
 
+TEST_CASE("the step of a counter", "[identification]") {
+    using identification::counter_step;
+    constexpr double count = 360.0 / 4096.0;
+    std::vector<double> read;
+    for (int k = 0; k < 40; ++k)
+        read.push_back(std::round(1e4 * count * ((7 * k * k) % 53)) / 1e4 + 17.0);
+    CHECK(counter_step(read) == Approx(count).epsilon(1e-4));
+    read[5] += 0.4 * count;  // one reading between the counts: no counter
+    CHECK(counter_step(read) == 0.0);
+    CHECK(counter_step({0.0, 1.0, 2.0, 3.0}) == 0.0);  // too few
+    std::vector<double> any;
+    for (int k = 0; k < 40; ++k) any.push_back(std::fmod(0.618034 * k, 1.0));
+    CHECK(counter_step(any) == 0.0);
+}
+
+namespace {
+
+/// A laser that reads counts of 0.6 um, at targets 20 mm apart, twice.
+records::ReadingTable counted(double stated_sigma_mm, double bow_mm) {
+    records::ReadingTable table;
+    table.path = "laser.csv";
+    table.axes = {Axis::X, Axis::Y, Axis::Z};
+    for (int k = 0; k < 84; ++k) {
+        records::Reading row;
+        row.index = k;
+        row.time_s = k;
+        row.test = "X";
+        row.device = records::Device::linear;
+        row.feature = "R1";
+        row.direction_M = Vector3(1, 0, 0);
+        const double part = (k % 42) / 41.0;
+        row.commanded[Axis::X] = 20.0 * (k % 42);
+        row.value_mm = 0.0006 * std::round(4.0 * bow_mm * part * (1.0 - part) / 0.0006);
+        if (stated_sigma_mm > 0.0) row.sigma_mm = stated_sigma_mm;
+        table.rows.push_back(row);
+    }
+    return table;
+}
+
+}  // namespace
+
+TEST_CASE("counts are noise beside a stated device, not beside a stated row", "[identification]") {
+    std::vector<std::string> notes;
+    const setup::Setup setup = setup::parse_setup(
+        "[machine]\nname = \"m\"\nchain = \"w b X Y Z t\"\n"
+        "[[artefact]]\nname = \"R1\"\nkind = \"target\"\ntool_mm = [0, 0, -100]\n"
+        "[model]\nmodelled = []\nnoise_um = { linear = 0.1 }\n",
+        "s.toml", notes);
+    const auto sigma_mm = [&](const records::ReadingTable& table) {
+        return identification::row_noise(setup, table, emulator::Replay(setup, table)).sigma_mm(7);
+    };
+    CHECK(sigma_mm(counted(0.0, 0.02)) == Approx(0.0006 / std::sqrt(12.0)));
+    CHECK(sigma_mm(counted(1e-4, 0.02)) == 1e-4);
+    // A line without noise grows in even steps: each was read at one place.
+    records::ReadingTable line = counted(0.0, 0.02);
+    for (records::Reading& row : line.rows)
+        row.value_mm = 20e-6 * std::sqrt(2.0) * row.commanded[Axis::X];
+    CHECK(sigma_mm(line) == 1e-4);
+}
+
 TEST_CASE("a servo log of three digits: the sigma is that of the digits, and the lag is right",
           "[identification]") {
     const setup::Setup setup = machine();

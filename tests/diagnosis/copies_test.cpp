@@ -1,0 +1,72 @@
+// A log that is faster than its sensor writes each reading several times.
+#include "diagnosis/copies.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "base/random.h"
+#include "diagnosis/diagnosis.h"
+#include "setup/setup.h"
+
+namespace trunnion {
+namespace {
+
+setup::Setup stage() {
+    std::vector<std::string> notes;
+    return setup::parse_setup(
+        "[machine]\nname = \"stage\"\nchain = \"w b X Y Z t\"\n"
+        "[[artefact]]\nname = \"R1\"\nkind = \"target\"\ntool_mm = [0, 0, 0]\n"
+        "[model]\nmodelled = []\n",
+        "stage.toml", notes);
+}
+
+/// 39 readings of 50 um scatter at one place, each written `times` times, in steps of `digit_mm`.
+records::ReadingTable log(int times, double digit_mm) {
+    SeededNoise random(4);
+    records::ReadingTable table;
+    table.path = "log.csv";
+    table.axes = {Axis::X, Axis::Y, Axis::Z};
+    for (int k = 0; k < 39; ++k) {
+        const double value_mm = digit_mm * std::round(0.05 * random.normal() / digit_mm);
+        for (int again = 0; again < times; ++again) {
+            records::Reading row;
+            row.index = static_cast<int>(table.rows.size());
+            row.time_s = 0.1 * row.index;
+            row.test = "rest";
+            row.device = records::Device::linear;
+            row.feature = "R1";
+            row.direction_M = Vector3(0, 0, 1);
+            row.value_mm = value_mm;
+            table.rows.push_back(row);
+        }
+    }
+    return table;
+}
+
+}  // namespace
+
+TEST_CASE("copies of a reading are one reading", "[diagnosis]") {
+    const records::ReadingTable five = log(5, 1e-4);
+    const auto once = diagnosis::without_copies(five);
+    REQUIRE(once);
+    CHECK(once->rows.size() == 39);
+    CHECK(once->rows[3].index == 15);  // the first of each run
+    CHECK_FALSE(diagnosis::without_copies(log(1, 1e-4)));
+
+    const diagnosis::Diagnosis read_once = diagnosis::diagnose(stage(), log(1, 1e-4));
+    const diagnosis::Diagnosis read_five = diagnosis::diagnose(stage(), five);
+    CHECK(read_five.copies == 156);
+    CHECK(read_five.readings == 39);
+    CHECK(read_once.verdict == diagnosis::Verdict::no_gap);
+    CHECK(read_five.verdict == diagnosis::Verdict::no_gap);
+    CHECK(read_five.noise_um.value() == Approx(read_once.noise_um.value()).epsilon(1e-6));
+}
+
+TEST_CASE("equal values of few digits are no copies", "[diagnosis]") {
+    CHECK_FALSE(diagnosis::without_copies(log(1, 0.2)));  // nearly all are 0
+    records::ReadingTable moved = log(5, 1e-4);
+    for (records::Reading& row : moved.rows) row.commanded[Axis::X] = row.index;
+    CHECK_FALSE(diagnosis::without_copies(moved));  // each at a place of its own
+}
+
+}  // namespace trunnion
