@@ -59,7 +59,7 @@ std::string sentence(const diagnosis::Diagnosis& d) {
     for (const diagnosis::Cause& cause : d.causes)
         if (!cause.since.empty())
             names += fmt::format("{}{} (probability {})", names.empty() ? "" : ", ",
-                                 cause_name(cause), probability_words(cause.probability));
+                                 cause_name(d, cause), probability_words(cause.probability));
     if (!names.empty()) return "Between the sessions the machine changed: " + names + ".";
     if (d.verdict == diagnosis::Verdict::unexplained)
         return "No change of the catalogue's effects between the sessions is found; part of the "
