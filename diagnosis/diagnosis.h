@@ -61,7 +61,9 @@ struct SessionChange {
     identification::FitParameter parameter;  ///< value and sigma are those of the change
     std::string since;                       ///< the first session with it
     double before = 0.0;                     ///< the parameter in the previous session, in its unit
-    bool claimed = false;  ///< part of a cause; else the estimated change beside all causes
+    Finite probability =
+        0.0;               ///< of the cause that it is part of; 0: the estimate beside all causes
+    bool claimed = false;  ///< part of a cause that is claimed
 };
 
 /// Readings of one session, um.

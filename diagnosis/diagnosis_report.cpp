@@ -256,9 +256,9 @@ void tell_sessions(const Outcome& f, const std::vector<Claim>& claims, Diagnosis
     const Outcome told{f.prepared,  f.design, f.setting, f.judgement.gap ? f.model : none,
                        f.judgement, f.noise,  f.used,    f.beside_set_up,
                        f.found};
-    std::vector<bool> claimed(told.model.members.size(), false);
-    for (const Claim& claim : claims) claimed[claim.position] = true;
-    d.changes = changes_of(told, solved(told.design, told.model), claimed);
+    std::vector<double> probability(told.model.members.size(), 0.0);
+    for (const Claim& claim : claims) probability[claim.position] = claim.probability;
+    d.changes = changes_of(told, solved(told.design, told.model), probability);
 }
 
 /// By its share among the causes; what is rather not there stands last, like any other cause.

@@ -115,7 +115,7 @@ Json over_of(const diagnosis::Diagnosis& d) {
                                    {"since", c.since},
                                    {"before", c.before},
                                    {"change", c.parameter.value},
-                                   {"sigma", c.parameter.sigma},
+                                   {"sigma", json_number(c.parameter.sigma)},
                                    {"claimed", c.claimed}});
     return json;
 }
