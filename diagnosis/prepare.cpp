@@ -66,7 +66,8 @@ Prepared::Prepared(const setup::Setup& setup, const records::ReadingTable& readi
       catalogue(effects::make_catalogue(setup, effects::extent_of(setup, readings))),
       only_rivals(jumps_like_moves(catalogue)) {
     if (replay.size() < least_readings)
-        throw InputError(fmt::format("{} readings allow no diagnosis", replay.size()),
+        throw InputError(fmt::format("{} readings allow no diagnosis: it takes {} or more",
+                                     replay.size(), least_readings),
                          {table.path, 0, 0});
     base_sides = sides =
         identification::choose_sides(setup, table, replay, catalogue, setup.model.modelled);
