@@ -24,6 +24,7 @@ struct HeldOut {
     Finite rms_before_um = 0.0, rms_after_um = 0.0, noise_um = 0.0;
     Finite shrink = 0.0;           ///< 1 - sqrt(max(0, after^2 - noise^2) / (before^2 - noise^2))
     Finite low = 0.0, high = 0.0;  ///< 95 %, bootstrap over poses and arcs
+    std::size_t set_aside = 0;     ///< readings of a separate table that fit nothing
 };
 
 struct DriverShare {

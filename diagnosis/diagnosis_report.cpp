@@ -322,6 +322,9 @@ Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options) {
     }
     if (options.holdout) {
         d.after = measured_shrink(f, d.setup, *options.holdout, options.seed);
+        if (d.after.set_aside > 0)
+            d.notes.push_back(fmt::format("{}: {} held-out readings fit nothing and are set aside",
+                                          options.holdout->path, d.after.set_aside));
         if (d.causes.size() == 1) d.causes.front().heldout = d.after;
     }
     if (!options.plan_next) return d;

@@ -151,6 +151,7 @@ std::string diagnosis_json(const diagnosis::Diagnosis& d, const std::vector<File
               {"unseen", d.unseen},
               {"inseparable", json_inseparable(d.inseparable)},
               {"readings", d.readings}};
+    if (d.after.set_aside > 0) json["after"]["set_aside"] = d.after.set_aside;
     if (!d.sessions.empty()) json["over"] = over_of(d);
     if (d.chosen_from > 0) json["chosen_from"] = d.chosen_from;
     if (d.unfinished) json["unfinished"] = true;
