@@ -159,7 +159,10 @@ Cause cause_of(const FoundModel& f, const Claim& claim) {
     }
     cause.what = "An error of the axis that follows its position in a form of its own";
     cause.usual_cause = "screw, scale, guide or bearing as they are; no single fault";
-    cause.remedy = "enter the table as pitch or straightness compensation of the axis";
+    cause.remedy = cause.holds_between
+                       ? "enter the table as pitch or straightness compensation of the axis"
+                       : "measure at places closer to each other before anything is compensated: "
+                         "between these the table does not hold";
     return cause;
 }
 

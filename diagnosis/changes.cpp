@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "diagnosis/rules.h"
 #include "effects/settings.h"
 #include "estimation/ranked_least_squares.h"
 
@@ -50,7 +51,7 @@ bool right_form(const Outcome& f, const ColumnGroup& group) {
 }
 
 void add(std::vector<SessionChange>& list, const ColumnGroup& group, const Eigen::VectorXd& value,
-         const Eigen::VectorXd& sigma, bool claimed) {
+         const Eigen::VectorXd& sigma, double probability) {
     for (std::size_t k = 0; k < group.parameters.size(); ++k) {
         const effects::EffectParameter& p = group.effect->parameters[group.parameters[k]];
         const auto at = static_cast<Eigen::Index>(k);
@@ -60,7 +61,8 @@ void add(std::vector<SessionChange>& list, const ColumnGroup& group, const Eigen
                             p.typical * sigma(at)};
         change.parameter.location = p.location;
         change.since = group.since;
-        change.claimed = claimed;
+        change.probability = probability;
+        change.claimed = probability >= rules::claimed;
         list.push_back(std::move(change));
     }
 }
@@ -92,7 +94,7 @@ void add_befores(const Outcome& f, const Solution& solution, std::vector<Session
     for (SessionChange& change : list) {
         change.before = value_in(first, f.prepared.catalogue, change.parameter);
         for (const SessionChange& other : list)
-            if (other.claimed && order(other) < order(change) &&
+            if (other.probability > 0.0 && order(other) < order(change) &&
                 identification::full_name(other.parameter) ==
                     identification::full_name(change.parameter))
                 change.before += other.parameter.value;
@@ -102,14 +104,14 @@ void add_befores(const Outcome& f, const Solution& solution, std::vector<Session
 }  // namespace
 
 std::vector<SessionChange> changes_of(const Outcome& f, const Solution& solution,
-                                      const std::vector<bool>& claimed) {
+                                      const std::vector<double>& probability) {
     std::vector<SessionChange> list;
     const Eigen::VectorXd sigma = solution.covariance().diagonal().cwiseSqrt();
     for (std::size_t k = 0; k < f.model.members.size(); ++k) {
         const ColumnGroup& group = f.design.group(f.model.members[k]);
         if (group.is_change())
             add(list, group, solution.mean.segment(solution.first[k], solution.size[k]),
-                sigma.segment(solution.first[k], solution.size[k]), claimed[k]);
+                sigma.segment(solution.first[k], solution.size[k]), probability[k]);
     }
     const estimation::GivenMembers given(f.design.equations(f.model.members), f.model.variances);
     for (std::size_t g = 0; g < f.design.groups().size(); ++g) {
@@ -120,7 +122,7 @@ std::vector<SessionChange> changes_of(const Outcome& f, const Solution& solution
         const estimation::GroupInformation left =
             given.leave(f.design.cross(f.model.members, {g}), entry.gram, entry.product);
         const estimation::LinearFit fit = estimation::solve_ranked(left.information, left.product);
-        add(list, entry.group, fit.value, fit.sigma, false);
+        add(list, entry.group, fit.value, fit.sigma, 0.0);
     }
     add_befores(f, solution, list);
     return list;

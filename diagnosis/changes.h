@@ -7,10 +7,10 @@
 namespace trunnion::diagnosis {
 
 /// First the changes in the model; then, beside it, the estimated change of each location error,
-/// each modelled effect and each cause from every session to the next. `claimed` marks members that
-/// are causes.
+/// each modelled effect and each cause from every session to the next. `probability` is that of
+/// the cause that each member is, 0 of members that are none.
 std::vector<SessionChange> changes_of(const Outcome& found, const Solution& solution,
-                                      const std::vector<bool>& claimed);
+                                      const std::vector<double>& probability);
 
 /// The table with one session for each of its files, named after the file without folder and
 /// extension; empty when a row has a session or there is only one file.

@@ -24,6 +24,7 @@ struct HeldOut {
     Finite rms_before_um = 0.0, rms_after_um = 0.0, noise_um = 0.0;
     Finite shrink = 0.0;           ///< 1 - sqrt(max(0, after^2 - noise^2) / (before^2 - noise^2))
     Finite low = 0.0, high = 0.0;  ///< 95 %, bootstrap over poses and arcs
+    std::size_t set_aside = 0;     ///< readings of a separate table that fit nothing
 };
 
 struct DriverShare {
@@ -61,7 +62,9 @@ struct SessionChange {
     identification::FitParameter parameter;  ///< value and sigma are those of the change
     std::string since;                       ///< the first session with it
     double before = 0.0;                     ///< the parameter in the previous session, in its unit
-    bool claimed = false;  ///< part of a cause; else the estimated change beside all causes
+    Finite probability =
+        0.0;               ///< of the cause that it is part of; 0: the estimate beside all causes
+    bool claimed = false;  ///< part of a cause that is claimed
 };
 
 /// Readings of one session, um.

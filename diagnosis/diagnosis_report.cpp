@@ -256,9 +256,9 @@ void tell_sessions(const Outcome& f, const std::vector<Claim>& claims, Diagnosis
     const Outcome told{f.prepared,  f.design, f.setting, f.judgement.gap ? f.model : none,
                        f.judgement, f.noise,  f.used,    f.beside_set_up,
                        f.found};
-    std::vector<bool> claimed(told.model.members.size(), false);
-    for (const Claim& claim : claims) claimed[claim.position] = true;
-    d.changes = changes_of(told, solved(told.design, told.model), claimed);
+    std::vector<double> probability(told.model.members.size(), 0.0);
+    for (const Claim& claim : claims) probability[claim.position] = claim.probability;
+    d.changes = changes_of(told, solved(told.design, told.model), probability);
 }
 
 /// By its share among the causes; what is rather not there stands last, like any other cause.
@@ -322,6 +322,9 @@ Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options) {
     }
     if (options.holdout) {
         d.after = measured_shrink(f, d.setup, *options.holdout, options.seed);
+        if (d.after.set_aside > 0)
+            d.notes.push_back(fmt::format("{}: {} held-out readings fit nothing and are set aside",
+                                          options.holdout->path, d.after.set_aside));
         if (d.causes.size() == 1) d.causes.front().heldout = d.after;
     }
     if (!options.plan_next) return d;

@@ -4,6 +4,8 @@
 
 #include "base/random.h"
 #include "diagnosis/diagnosis_report.h"
+#include "diagnosis/holdout_zeros.h"
+#include "diagnosis/outliers.h"
 #include "effects/settings.h"
 #include "estimation/quantiles.h"
 
@@ -12,10 +14,11 @@ namespace {
 
 /// Squares before and after, with their expectation from noise alone, by block, mm^2.
 struct SquaredSums {
-    std::vector<double> before, after, noise, rows;
+    std::vector<double> before, after, noise;
     double independent = 0.0;
     double whitened_before = 0.0, whitened_after = 0.0;  ///< divided by the variance of the noise
-    double freedom = 0.0;  ///< readings, less the zeros that they determine
+    double freedom = 0.0;       ///< readings, less the zeros that they determine
+    std::size_t set_aside = 0;  ///< spoiled readings, in none of the sums
 };
 
 double shrink_of(double before, double after, double noise) {
@@ -29,56 +32,96 @@ double total(const std::vector<double>& v) {
     return sum;
 }
 
-/// What is measured beside a prediction, mm; the zero of each test and session of a laser or
-/// autocollimator is free, also in readings that took no part in the fit.
-Eigen::VectorXd left_of(const emulator::Replay& replay, const records::ReadingTable& table,
-                        const std::vector<double>& predicted, const Eigen::VectorXd& sigma_mm) {
+/// Sizes of a separate table beside a prediction, without and with the causes, mm.
+struct Separate {
+    emulator::Replay replay;
+    std::vector<std::vector<std::size_t>> zeros;
+    std::vector<NoiseBlock> blocks;
+    Eigen::VectorXd sigma_mm;  ///< as the noise was found in the fit
+    Eigen::VectorXd before_mm, after_mm;
+    std::vector<bool> used;  ///< false: spoiled
+};
+
+Eigen::VectorXd beside(const records::ReadingTable& table, const emulator::Replay& replay,
+                       const std::vector<double>& predicted) {
     Eigen::VectorXd left(static_cast<Eigen::Index>(predicted.size()));
     for (std::size_t k = 0; k < predicted.size(); ++k)
         left(static_cast<Eigen::Index>(k)) =
             *table.rows[replay.table_row(k)].value_mm - predicted[k];
-    free_zeros(replay, sigma_mm, left);
     return left;
 }
 
-/// Part of the noise that remains in each reading beside the zero of its test.
-std::vector<double> noise_left(const emulator::Replay& replay) {
-    std::vector<double> part(replay.size(), 1.0);
-    for (const emulator::ZeroGroup& group : replay.zeros())
-        for (const std::size_t k : group.rows)
-            part[k] -= 1.0 / static_cast<double>(group.rows.size());
+/// Readings far from the prediction with the causes, by the rule for the fit, unless the causes
+/// themselves put them there.
+std::vector<bool> not_spoiled(const Separate& held) {
+    Eigen::VectorXd before = held.before_mm, after = held.after_mm;
+    free_medians(held.zeros, before);
+    free_medians(held.zeros, after);
+    std::vector<bool> used(held.replay.size(), true);
+    for (const std::size_t i : wild_readings(after.cwiseQuotient(held.sigma_mm), used)) {
+        const auto at = static_cast<Eigen::Index>(i);
+        used[i] = std::abs(after(at) - before(at)) > 0.5 * std::abs(after(at));
+    }
+    return used;
+}
+
+Separate separate(const Outcome& f, const setup::Setup& setup, const records::ReadingTable& table) {
+    const setup::Setup& base = f.prepared.base.setup;
+    Separate held{emulator::Replay(base, table), {}, {}, {}, {}, {}, {}};
+    const emulator::Replay fitted(setup, table);
+    held.zeros = rows_of_zeros(held.replay);
+    held.blocks = noise_blocks(held.replay, table);
+    held.sigma_mm = identification::row_noise(base, table, held.replay).sigma_mm;
+    for (const NoiseBlock& block : held.blocks)
+        for (const Eigen::Index i : block.rows)
+            held.sigma_mm(i) *= std::sqrt(f.judgement.floor) * f.noise.model.of(block.device).scale;
+    held.before_mm = beside(table, held.replay, held.replay.predict(f.prepared.base.models));
+    held.after_mm = beside(table, fitted, fitted.predict(effects::active_models(setup)));
+    held.used = not_spoiled(held);
+    free_means(held.zeros, held.used, held.sigma_mm, held.before_mm);
+    free_means(held.zeros, held.used, held.sigma_mm, held.after_mm);
+    return held;
+}
+
+/// Part of the noise that remains in each reading beside its zero.
+std::vector<double> noise_left(const Separate& held) {
+    std::vector<double> part(held.replay.size(), 1.0);
+    for (const std::vector<std::size_t>& rows : held.zeros) {
+        const auto used =
+            std::count_if(rows.begin(), rows.end(), [&](std::size_t k) { return held.used[k]; });
+        for (const std::size_t k : rows) part[k] -= 1.0 / std::max(1.0, static_cast<double>(used));
+    }
     return part;
 }
 
 SquaredSums sums_of(const Outcome& f, const setup::Setup& setup,
                     const records::ReadingTable& table) {
-    const emulator::Replay replay(f.prepared.base.setup, table), fitted(setup, table);
-    const identification::RowNoise noise =
-        identification::row_noise(f.prepared.base.setup, table, replay);
-    const Eigen::VectorXd before =
-        left_of(replay, table, replay.predict(f.prepared.base.models), noise.sigma_mm);
-    const Eigen::VectorXd after =
-        left_of(fitted, table, fitted.predict(effects::active_models(setup)), noise.sigma_mm);
-    const std::vector<double> part = noise_left(replay);
+    const Separate held = separate(f, setup, table);
+    const std::vector<double> part = noise_left(held);
     SquaredSums sums;
-    for (const NoiseBlock& block : noise_blocks(replay, table)) {
-        double b = 0, a = 0, n = 0;
+    for (const NoiseBlock& block : held.blocks) {
+        double b = 0, a = 0, n = 0, rows = 0;
         for (const Eigen::Index i : block.rows) {
             const auto k = static_cast<std::size_t>(i);
-            const double scale = f.noise.model.of(block.device).scale;
-            b += std::pow(before(i), 2);
-            a += std::pow(after(i), 2);
-            const double own = f.judgement.floor * std::pow(scale * noise.sigma_mm(i), 2);
+            if (!held.used[k]) {
+                ++sums.set_aside;
+                continue;
+            }
+            const double before = std::pow(held.before_mm(i), 2),
+                         after = std::pow(held.after_mm(i), 2), own = std::pow(held.sigma_mm(i), 2);
+            b += before;
+            a += after;
             n += part[k] * own;
-            sums.whitened_before += std::pow(before(i), 2) / own;
-            sums.whitened_after += std::pow(after(i), 2) / own;
+            sums.whitened_before += before / own;
+            sums.whitened_after += after / own;
             sums.freedom += part[k];
+            rows += 1.0;
         }
+        if (rows == 0.0) continue;
         sums.before.push_back(b);
         sums.after.push_back(a);
         sums.noise.push_back(n);
-        sums.rows.push_back(static_cast<double>(block.rows.size()));
-        sums.independent += f.noise.model.of(block.device).independent(sums.rows.back());
+        sums.independent += f.noise.model.of(block.device).independent(rows);
     }
     return sums;
 }
@@ -107,7 +150,8 @@ HeldOut measured_shrink(const Outcome& f, const setup::Setup& setup,
               micro * std::sqrt(noise / rows),
               shrink_of(before, after, noise),
               0.0,
-              0.0};
+              0.0,
+              sums.set_aside};
     // The noise of these few readings may by chance differ from its variance.
     const double doubt =
         std::hypot(f.noise.model.doubt, std::sqrt(2.0 / std::max(1.0, sums.independent)));

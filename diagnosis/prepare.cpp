@@ -9,6 +9,7 @@
 #include "base/alarm.h"
 #include "base/rounded.h"
 #include "diagnosis/cycles.h"
+#include "diagnosis/holdout_zeros.h"
 #include "diagnosis/machine_jump.h"
 #include "identification/index_errors.h"
 #include "identification/resolution.h"
@@ -86,7 +87,8 @@ Prepared::Prepared(const setup::Setup& setup, const records::ReadingTable& readi
       catalogue(effects::make_catalogue(setup, effects::extent_of(setup, readings))),
       only_rivals(jumps_like_moves(catalogue)) {
     if (replay.size() < least_readings)
-        throw InputError(fmt::format("{} readings allow no diagnosis", replay.size()),
+        throw InputError(fmt::format("{} readings allow no diagnosis: it takes {} or more",
+                                     replay.size(), least_readings),
                          {table.path, 0, 0});
     base_sides = sides =
         identification::choose_sides(setup, table, replay, catalogue, setup.model.modelled);
@@ -117,17 +119,23 @@ void refuse_poor_holdout(const Prepared& prepared, const records::ReadingTable& 
     const emulator::Replay replay(prepared.base.setup, holdout);
     if (replay.size() == 0) throw InputError("no held-out reading", {holdout.path, 0, 0});
     const std::vector<double> read = replay.predict(prepared.base.models);
-    for (std::size_t i = 0; i < replay.size(); ++i) {
-        const records::Reading& row = holdout.rows[replay.table_row(i)];
-        if (!row.value_mm)
+    Eigen::VectorXd left_mm(static_cast<Eigen::Index>(replay.size()));
+    const auto row_of = [&](Eigen::Index i) -> const records::Reading& {
+        return holdout.rows[replay.table_row(static_cast<std::size_t>(i))];
+    };
+    for (Eigen::Index i = 0; i < left_mm.size(); ++i) {
+        if (!row_of(i).value_mm)
             throw InputError("a held-out row with a device but without value_mm",
-                             records::place_of(holdout, row));
-        if (std::abs(*row.value_mm - read[i]) > absurd_mm)
+                             records::place_of(holdout, row_of(i)));
+        left_mm(i) = *row_of(i).value_mm - read[static_cast<std::size_t>(i)];
+    }
+    free_medians(rows_of_zeros(replay), left_mm);
+    for (Eigen::Index i = 0; i < left_mm.size(); ++i)
+        if (std::abs(left_mm(i)) > absurd_mm)
             throw InputError(fmt::format("held out, {} mm away from what the simulation reads: "
                                          "wrong units (um for mm?), wrong frame, another machine",
-                                         three_digits(*row.value_mm - read[i])),
-                             records::place_of(holdout, row));
-    }
+                                         three_digits(left_mm(i))),
+                             records::place_of(holdout, row_of(i)));
 }
 
 void refuse_one_session(const Prepared& prepared) {

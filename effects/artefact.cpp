@@ -41,6 +41,32 @@ std::vector<double> slip_times(const DataExtent& extent, int count) {
     return all;
 }
 
+struct SlipWords {
+    const char *what, *cause;
+};
+
+/// What may slip in readings of these devices, and why.
+SlipWords slip_words(const std::set<records::Device>& devices) {
+    using records::Device;
+    constexpr const char* clamp = "a clamp or magnet let go, someone touched it";
+    const auto only = [&](std::initializer_list<Device> some) {
+        return !devices.empty() && std::all_of(devices.begin(), devices.end(), [&](Device device) {
+            return std::find(some.begin(), some.end(), device) != some.end();
+        });
+    };
+    if (only({Device::linear}))
+        return {"The reflector, the gauge or what holds it slipped during the test", clamp};
+    if (only({Device::angle}))
+        return {"The mirror or the instrument that reads angles slipped during the test", clamp};
+    if (only({Device::point}))
+        return {"The part or target that was measured, or the instrument, slipped during the test",
+                clamp};
+    if (only({Device::linear, Device::angle, Device::point, Device::axis}))
+        return {"A target or an instrument slipped during the test", clamp};
+    return {"A sphere or cup slipped during the test",
+            "magnet or clamp let go, someone touched it"};
+}
+
 }  // namespace
 
 Effect artefact_position(const std::vector<setup::Artefact>& artefacts) {
@@ -100,9 +126,10 @@ Effect artefact_form(const std::vector<setup::Artefact>& artefacts) {
 }
 
 Effect artefact_moved(const std::vector<setup::Artefact>& artefacts, const DataExtent& extent) {
+    const SlipWords words = slip_words(extent.devices);
     Effect effect{identity_of(EffectKind::artefact_moved),
-                  "A sphere or cup slipped during the test",
-                  "magnet or clamp let go, someone touched it",
+                  words.what,
+                  words.cause,
                   "fix it better and repeat the readings taken after the slip",
                   "artefact shifted by shift_mm in W from time_s on",
                   {},

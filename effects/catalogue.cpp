@@ -112,8 +112,9 @@ CarriedTool carried_tool(const setup::Setup& setup) {
 Catalogue make_catalogue(const setup::Setup& setup, const DataExtent& extent) {
     const kinematics::Chain& chain = setup.machine.chain;
     const bool basic = has_basic_axes(chain);
-    Catalogue list{location_effect(chain)};
-    if (basic && tilting_axis(chain)) {  // the tables of other machines turn nothing
+    const bool pivots = basic && tilting_axis(chain);  // the tables of other machines turn nothing
+    Catalogue list{location_effect(chain, pivots)};
+    if (pivots) {
         list.push_back(pivot_g54(chain));
         list.push_back(pivot_p1970x(chain));
     }
@@ -153,6 +154,8 @@ DataExtent extent_of(const setup::Setup& setup, const records::ReadingTable& tab
     if (table.rows.empty()) return extent;
     extent.start_s = table.rows.front().time_s;
     extent.end_s = table.rows.back().time_s;
+    for (const records::Reading& row : table.rows)
+        if (row.device != records::Device::none) extent.devices.insert(row.device);
     for (const setup::Artefact& artefact : setup.artefacts) {
         std::vector<double> times;
         for (const records::Reading& row : table.rows)

@@ -49,11 +49,14 @@ void add_place(const Place& place, double value, const AxisSample& sample,
 
 }  // namespace
 
-Effect location_effect(const kinematics::Chain& chain) {
+Effect location_effect(const kinematics::Chain& chain, bool pivots) {
     Effect effect{identity_of(EffectKind::location),
                   "The rotary axes do not lie where the simulation has them",
                   "assembly, a crash, thermal growth since the last calibration",
-                  "enter the identified values in the setup and in the control's pivot parameters",
+                  pivots ? "enter the identified values in the setup and in the control's pivot "
+                           "parameters"
+                         : "enter the identified values in the setup, and in what steers the "
+                           "machine if that has a model of its axes; else align the axes",
                   "constant error motion: x' = q + d + exp(e x) Rot (x - q), d and e at home",
                   {},
                   {}};

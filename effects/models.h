@@ -1,6 +1,8 @@
 // Factory functions of all effects (*.cpp, by subject), called by the catalogue for each axis.
 #pragma once
 
+#include <set>
+
 #include "effects/effect.h"
 
 namespace trunnion::effects {
@@ -10,6 +12,7 @@ struct DataExtent {
     double start_s = 0.0;
     double end_s = 7200.0;
     std::vector<std::vector<double>> times_s;  ///< times of the rows of each artefact, rising
+    std::set<records::Device> devices;         ///< that read at least one row
 };
 
 /// What the last axis of the tool side carries: where its weight acts, and where it points to.
@@ -17,7 +20,8 @@ struct CarriedTool {
     Vector3 centre_S_mm = Vector3::Zero(), along_S = -Vector3::UnitZ();
 };
 
-Effect location_effect(const kinematics::Chain& chain);
+/// `pivots`: the control has stores for where its rotary axes lie.
+Effect location_effect(const kinematics::Chain& chain, bool pivots);
 Effect rotary_zero(const kinematics::AxisGeometry& axis);
 Effect rotary_positioning(const kinematics::AxisGeometry& axis);
 Effect rotary_cyclic(const kinematics::AxisGeometry& axis);

@@ -142,8 +142,9 @@ void drop_empty_end(std::vector<records::TableCell>& cells) {
 }
 
 bool is_missing(std::string_view text) {
-    static constexpr std::array<std::string_view, 11> words{
-        "-", "--", "---", "nan", "n/a", "na", "n.a.", "null", "#n/a", "out of range", "overrange"};
+    static constexpr std::array<std::string_view, 12> words{
+        "-",  "--",   "---",  "?",    "nan",          "n/a",
+        "na", "n.a.", "null", "#n/a", "out of range", "overrange"};
     if (text.find_first_not_of('*') == std::string_view::npos) return true;  // also when empty
     std::string lower(text);
     for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));

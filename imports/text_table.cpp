@@ -33,9 +33,9 @@ bool one_of(char c, std::string_view set) {
     return set.find(c) != std::string_view::npos;
 }
 
-/// "--- | --- |" between the names and the rows.
-bool is_rule(std::string_view text) {
-    return text.find_first_not_of("-|: \t") == std::string_view::npos;
+/// "|:---:|---|" or "+---+" between the names and the rows.
+bool is_rule(std::string_view text, const Dialect& dialect) {
+    return dialect.separator == '|' && text.find_first_not_of("-|:+= \t") == std::string_view::npos;
 }
 
 /// "[3]" is an index, not a unit.
@@ -157,8 +157,12 @@ bool TextTable::is_units(const Line& line) const {
 
 /// Number of rows (at most two) after lines[header] with as many cells as it has names.
 std::size_t TextTable::rows_behind(const std::vector<Line>& lines, std::size_t header) const {
-    std::size_t first = header + 1;
-    if (first < lines.size() && is_units(lines[first])) ++first;
+    if (is_rule(lines[header].text, dialect_)) return 0;
+    const auto past_rule = [&](std::size_t i) {
+        return i + (i < lines.size() && is_rule(lines[i].text, dialect_) ? 1 : 0);
+    };
+    std::size_t first = past_rule(header + 1);
+    if (first < lines.size() && is_units(lines[first])) first = past_rule(first + 1);
     std::size_t count = 0;
     for (std::size_t i = first; i < std::min(lines.size(), first + 2); ++i) {
         Cells row = cells(lines[i]);
@@ -193,7 +197,7 @@ std::size_t TextTable::widest(const std::vector<Line>& lines) const {
             width = std::max(width, row.size());
         }
     for (std::size_t i = 0; i < end && width > 0; ++i) {
-        if (lines[i].text[0] == '#') continue;
+        if (lines[i].text[0] == '#' || is_rule(lines[i].text, dialect_)) continue;
         const std::size_t names = header_cells(lines[i], width).size();
         if (names == width || names == full) return i;
     }
@@ -271,7 +275,7 @@ void TextTable::take_rows(const std::vector<Line>& lines, std::size_t begin) {
     for (std::size_t i = end_ = begin; i < lines.size(); ++i) {
         const Line& line = lines[i];
         if (line.text[0] == '#') continue;  // between rows; before the next table part of its head
-        if (dialect_.separator == '|' && is_rule(line.text)) continue;
+        if (is_rule(line.text, dialect_)) continue;
         if (!begins_with_number(line.text) && !(i == begin && is_units(line))) {
             const Cells row = cells(line);
             const bool says = line.text.find_first_of(":=") != std::string_view::npos;

@@ -154,7 +154,9 @@ std::optional<double> seconds_of(std::string_view text) {
         date = take_date(text);
         if (!date) return std::nullopt;
         if (text.empty()) return date;
-        if (!skip(text, 'T') && !skip(text, ' ')) return std::nullopt;
+        const std::string_view mark = text.substr(0, 1);  // 2021/06/05-13:24:41 is a log's
+        if (mark.find_first_of("T -_") == mark.npos) return std::nullopt;
+        text.remove_prefix(1);
         text = records::without_blanks(text);
     }
     const auto clock = take_clock(text);

@@ -115,7 +115,7 @@ Json over_of(const diagnosis::Diagnosis& d) {
                                    {"since", c.since},
                                    {"before", c.before},
                                    {"change", c.parameter.value},
-                                   {"sigma", c.parameter.sigma},
+                                   {"sigma", json_number(c.parameter.sigma)},
                                    {"claimed", c.claimed}});
     return json;
 }
@@ -151,6 +151,7 @@ std::string diagnosis_json(const diagnosis::Diagnosis& d, const std::vector<File
               {"unseen", d.unseen},
               {"inseparable", json_inseparable(d.inseparable)},
               {"readings", d.readings}};
+    if (d.after.set_aside > 0) json["after"]["set_aside"] = d.after.set_aside;
     if (!d.sessions.empty()) json["over"] = over_of(d);
     if (d.copies > 0) json["copies"] = d.copies;
     if (d.chosen_from > 0) json["chosen_from"] = d.chosen_from;

@@ -63,7 +63,7 @@ std::string share_bars(const diagnosis::Diagnosis& d) {
     std::vector<Bar> list;
     for (std::size_t k = 0; k < d.causes.size(); ++k)
         list.push_back(
-            {cause_name(d.causes[k]), fmt::format("{} %", percent(d.causes[k].share)),
+            {cause_name(d, d.causes[k]), fmt::format("{} %", percent(d.causes[k].share)),
              d.causes[k].share,
              !d.causes[k].known ? std::string("#999999") : plot_colours[k % plot_colours.size()]});
     return bars(list, 100.0, "share of the gap in %");
@@ -139,7 +139,7 @@ std::string cause_table(const diagnosis::Diagnosis& d) {
             "th");
     for (const diagnosis::Cause& cause : d.causes) {
         const bool known = cause.known;
-        text += row({"<b>" + escape_xml(cause_name(cause)) + "</b><br><span class=\"note\">" +
+        text += row({"<b>" + escape_xml(cause_name(d, cause)) + "</b><br><span class=\"note\">" +
                          escape_xml(cause.what) + "</span>",
                      fmt::format("{} %", percent(cause.share)),
                      known ? escape_xml(main_size(cause)) : "&ndash;",
@@ -153,17 +153,17 @@ std::string cause_table(const diagnosis::Diagnosis& d) {
     return text + "</table></div>\n";
 }
 
-std::string free_form_section(const diagnosis::Cause& cause) {
+std::string free_form_section(const diagnosis::Diagnosis& d, const diagnosis::Cause& cause) {
     return fmt::format(
         "<h3>{}</h3>\n<p>{}. <b>What to do:</b> {}.{}</p>\n{}<details><summary>Table"
         "</summary><pre tabindex=\"0\">{}</pre></details>\n",
-        escape_xml(cause.effect), escape_xml(cause.what), escape_xml(cause.remedy),
+        escape_xml(cause_name(d, cause)), escape_xml(cause.what), escape_xml(cause.remedy),
         cause.holds_between ? "" : " It holds at the measured places only.", error_curves(cause),
         escape_xml(error_table(cause)));
 }
 
-std::string cause_section(const diagnosis::Cause& cause) {
-    if (!cause.points.empty()) return free_form_section(cause);
+std::string cause_section(const diagnosis::Diagnosis& d, const diagnosis::Cause& cause) {
+    if (!cause.points.empty()) return free_form_section(d, cause);
     if (!cause.known)
         return fmt::format("<h3>{}</h3>\n<p>{}.</p>\n", escape_xml(cause.effect),
                            escape_xml(cause.what));
@@ -171,7 +171,7 @@ std::string cause_section(const diagnosis::Cause& cause) {
     std::string text = fmt::format(
         "<h3>{}</h3>\n<p>{}. <b>Usual cause:</b> {}. <b>What to do:</b> "
         "{}.</p>\n",
-        escape_xml(cause_name(cause)), escape_xml(cause.what), escape_xml(cause.usual_cause),
+        escape_xml(cause_name(d, cause)), escape_xml(cause.what), escape_xml(cause.usual_cause),
         escape_xml(cause.remedy));
     if (!cause.rivals.empty())
         text += fmt::format("<p class=\"bad-text\">{}: {}.</p>\n", upper_first(rivals_words(cause)),
@@ -284,7 +284,7 @@ Page diagnosis_page(const diagnosis::Diagnosis& d, const std::string& readings) 
         "All readings", figure_html(residual_plot(d), "Machine minus simulation of each reading"));
     page.body_html += where_section(d) + set_up_section(d) + next_section(d);
     if (!d.causes.empty()) page.body_html += "<h2>The causes one by one</h2>\n";
-    for (const diagnosis::Cause& cause : d.causes) page.body_html += cause_section(cause);
+    for (const diagnosis::Cause& cause : d.causes) page.body_html += cause_section(d, cause);
     page.body_html += small_print(d);
     return page;
 }

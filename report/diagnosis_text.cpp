@@ -36,7 +36,7 @@ std::string parameters_text(const std::vector<identification::FitParameter>& par
 }
 
 std::string cause_text(const diagnosis::Diagnosis& d, const diagnosis::Cause& cause) {
-    std::string text = fmt::format("\n{}  {} % of the gap, probability {}\n", cause_name(cause),
+    std::string text = fmt::format("\n{}  {} % of the gap, probability {}\n", cause_name(d, cause),
                                    percent(cause.share), probability_words(cause.probability));
     text += paragraph(cause.what + ".", 2);
     if (!cause.usual_cause.empty())

@@ -12,6 +12,8 @@
 namespace trunnion::report {
 namespace {
 
+constexpr double claimed_from = 0.5;  ///< probability of a cause
+
 struct ShopUnit {
     const char *from, *to;
     double factor, below;  ///< factor for values below this limit
@@ -33,11 +35,10 @@ std::string plain_name(const identification::FitParameter& p) {
     return p.component < 0 ? name : fmt::format("{} {}", name, "xyz"[p.component]);
 }
 
-constexpr double claimed_from = 0.5;  ///< probability of a cause
-constexpr double improbable = 0.1;    ///< ... below which its rivals are rather the cause
+constexpr double improbable = 0.1;  ///< probability below which rivals are rather the cause
 
 bool is_sure(const diagnosis::Diagnosis& d) {
-    return !d.causes.empty() && d.causes.front().probability >= claimed_from;
+    return !d.causes.empty() && is_claimed(d.causes.front());
 }
 
 /// True where the first cause has rivals and is itself improbable.
@@ -56,7 +57,7 @@ std::string by_words(const diagnosis::Diagnosis& d) {
 /// Name of the first cause that has rivals; empty if none has.
 std::string rivalled(const diagnosis::Diagnosis& d) {
     for (const diagnosis::Cause& cause : d.causes)
-        if (!cause.rivals.empty()) return cause_name(cause);
+        if (!cause.rivals.empty()) return cause_name(d, cause);
     return "";
 }
 
@@ -82,7 +83,7 @@ std::string causes_words(const diagnosis::Diagnosis& d) {
     std::string text;
     for (const diagnosis::Cause& cause : d.causes) {
         if (!cause.known) continue;
-        text += fmt::format("{}{} ({} %)", text.empty() ? "" : ", ", cause_name(cause),
+        text += fmt::format("{}{} ({} %)", text.empty() ? "" : ", ", cause_name(d, cause),
                             percent(cause.share));
     }
     return text;
@@ -90,12 +91,20 @@ std::string causes_words(const diagnosis::Diagnosis& d) {
 
 }  // namespace
 
+bool is_claimed(const diagnosis::Cause& cause) {
+    return cause.probability >= claimed_from;
+}
+
 std::string size_words(const diagnosis::Diagnosis& d, double size) {
     return d.angles ? angle_words(size) : length_words(size);
 }
 
-std::string cause_name(const diagnosis::Cause& cause) {
-    return cause.since.empty() ? cause.effect : cause.effect + " since " + cause.since;
+std::string cause_name(const diagnosis::Diagnosis& d, const diagnosis::Cause& cause) {
+    const auto alike = std::count_if(d.causes.begin(), d.causes.end(), [&](const auto& other) {
+        return other.effect == cause.effect && other.since == cause.since;
+    });
+    const std::string form = alike > 1 && !cause.points.empty() ? " as a table" : "";
+    return cause.effect + form + (cause.since.empty() ? "" : " since " + cause.since);
 }
 
 bool is_only_spoiled(const diagnosis::Diagnosis& d) {
@@ -143,7 +152,7 @@ std::string main_size(const diagnosis::Cause& cause) {
 
 std::string verdict_sentence(const diagnosis::Diagnosis& d) {
     const std::string size = gap_words(d);
-    const std::string first = d.causes.empty() ? "" : cause_name(d.causes.front());
+    const std::string first = d.causes.empty() ? "" : cause_name(d, d.causes.front());
     const char* where = d.between_places ? "" : " at the measured places";
     switch (d.verdict) {
         case diagnosis::Verdict::no_gap: return "No gap beyond noise: " + size + ".";

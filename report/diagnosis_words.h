@@ -15,10 +15,13 @@ ShopValue shop_value(const identification::FitParameter& parameter);
 
 /// "gap 81.2 +- 0.9 urad": the parameter with the largest ratio to its uncertainty.
 std::string main_size(const diagnosis::Cause& cause);
-/// "C.backlash", "C.backlash since friday"
 /// A size that is named _um: "12.3 µm", or in µrad where all readings are angles.
 std::string size_words(const diagnosis::Diagnosis& d, double size);
-std::string cause_name(const diagnosis::Cause& cause);
+/// "C.backlash", "C.backlash since friday"; of two causes of one name "Y.straightness as a table"
+/// is the one in free form.
+std::string cause_name(const diagnosis::Diagnosis& d, const diagnosis::Cause& cause);
+/// Probable enough to be said; others are only listed.
+bool is_claimed(const diagnosis::Cause& cause);
 /// True where the gap is nothing but the readings that were set aside: no cause explains or leaves
 /// anything of the others.
 bool is_only_spoiled(const diagnosis::Diagnosis& diagnosis);

@@ -52,11 +52,17 @@ double value_at(const std::vector<TablePoint>& curve, double at) {
     return before.value + part * (after->value - before.value);
 }
 
+/// A positioning error of a linear axis.
+bool has_pitch(const std::vector<TablePoint>& curve) {
+    return curve.front().travel && curve.size() > 1;
+}
+
 }  // namespace
 
 std::optional<PitchErrorData> pitch_error_data(const diagnosis::Cause& cause, double unit_mm) {
+    if (!cause.holds_between) return std::nullopt;
     for (const std::vector<TablePoint>& curve : by_error(cause)) {
-        if (!curve.front().travel || curve.size() < 2) continue;
+        if (!has_pitch(curve)) continue;
         const double range = curve.back().at - curve.front().at;
         PitchErrorData data{
             curve.front().at, range / static_cast<double>(curve.size() - 1), unit_mm, {}};
@@ -84,6 +90,11 @@ std::string error_table(const diagnosis::Cause& cause) {
                 fmt::format("  {:>12.4f} {:>10} {:>8}\n", place_of(p), shown.value, shown.sigma);
         }
     }
+    const auto curves = by_error(cause);
+    if (!cause.holds_between && std::any_of(curves.begin(), curves.end(), has_pitch))
+        return text +
+               "  no pitch error data: a control interpolates, and between its places the table\n"
+               "  does not hold\n";
     const auto data = pitch_error_data(cause);
     if (!data) return text;
     text += fmt::format(

@@ -18,12 +18,13 @@ struct PitchErrorData {
     double first_mm = 0.0, interval_mm = 0.0, unit_mm = 1e-3;
     std::vector<int> value;  ///< of the positions after the first
 };
-/// Empty when the cause has no free-form positioning error of a linear axis.
+/// Empty when the cause has no free-form positioning error of a linear axis, and for one that holds
+/// at the measured places only: the control interpolates between its points.
 std::optional<PitchErrorData> pitch_error_data(const diagnosis::Cause& cause,
                                                double unit_mm = 1e-3);
 
 /// The values of a free-form cause, one line a position: error, position, value and its sigma (µm
-/// or µrad), then the pitch error data if any. Empty for other causes.
+/// or µrad), then the pitch error data, or why there are none. Empty for other causes.
 std::string error_table(const diagnosis::Cause& cause);
 
 /// The same as curves over the position, an SVG picture for each error with a band of two sigma.

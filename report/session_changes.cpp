@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/rounded.h"
@@ -45,22 +46,38 @@ double in_sigma(const diagnosis::SessionChange& c) {
     return std::isfinite(sigma) && sigma > 0.0 ? c.parameter.value / sigma : 0.0;
 }
 
+/// 0: a claimed change, 1: part of a cause that is not claimed, 2: of none.
+std::size_t rank_of(const diagnosis::SessionChange& c) {
+    return c.claimed ? 0 : c.probability > 0.0 ? 1 : 2;
+}
+
 /// Causes first, then in the given order.
 std::vector<const diagnosis::SessionChange*> in_order(const diagnosis::Diagnosis& d) {
     std::vector<const diagnosis::SessionChange*> list;
     for (const diagnosis::SessionChange& c : d.changes) list.push_back(&c);
-    std::stable_partition(list.begin(), list.end(),
-                          [](const diagnosis::SessionChange* c) { return c->claimed; });
+    std::stable_sort(list.begin(), list.end(),
+                     [](const auto* a, const auto* b) { return rank_of(*a) < rank_of(*b); });
     return list;
 }
 
-std::string sentence(const diagnosis::Diagnosis& d) {
+/// The changes among the causes, with their probability: the claimed ones, or the others.
+std::string names_of(const diagnosis::Diagnosis& d, bool claimed) {
     std::string names;
     for (const diagnosis::Cause& cause : d.causes)
-        if (!cause.since.empty())
+        if (!cause.since.empty() && is_claimed(cause) == claimed)
             names += fmt::format("{}{} (probability {})", names.empty() ? "" : ", ",
-                                 cause_name(cause), probability_words(cause.probability));
-    if (!names.empty()) return "Between the sessions the machine changed: " + names + ".";
+                                 cause_name(d, cause), probability_words(cause.probability));
+    return names;
+}
+
+std::string sentence(const diagnosis::Diagnosis& d) {
+    const std::string claimed = names_of(d, true), others = names_of(d, false);
+    if (!claimed.empty()) return "Between the sessions the machine changed: " + claimed + ".";
+    if (!others.empty())
+        return "No single change of the machine between the sessions is certain: perhaps it is " +
+               others +
+               ", perhaps something else; the uncertainty of such a change holds only if it is the "
+               "cause.";
     if (d.verdict == diagnosis::Verdict::unexplained)
         return "No change of the catalogue's effects between the sessions is found; part of the "
                "gap has no explanation.";
@@ -105,7 +122,7 @@ std::string changes_text(const diagnosis::Diagnosis& d) {
                         "after", "change", "sigma");
     for (const diagnosis::SessionChange* c : in_order(d)) {
         const ShopChange s = shop_change(*c);
-        text += fmt::format("{} {:<24} {:<8} {:>8} {:>8} {:>8} {:>7} {}\n", c->claimed ? '*' : ' ',
+        text += fmt::format("{} {:<24} {:<8} {:>8} {:>8} {:>8} {:>7} {}\n", "*? "[rank_of(*c)],
                             s.name, c->since, s.before, s.after, s.change, s.sigma, s.unit);
     }
     return text;
@@ -130,7 +147,7 @@ std::string changes_section(const diagnosis::Diagnosis& d) {
     for (const diagnosis::SessionChange* c : list) {
         const ShopChange s = shop_change(*c);
         changes.rows.push_back({s.name, c->since, s.before, s.after, s.change, s.sigma, s.unit,
-                                c->claimed ? "changed" : "none"});
+                                std::array{"changed", "perhaps", "none"}[rank_of(*c)]});
     }
     return section_html(
         "What changed between the sessions",

@@ -33,6 +33,15 @@ TEST_CASE("held-out readings that cannot belong to the machine are refused", "[d
     refused("no held-out reading");
 }
 
+TEST_CASE("too few readings are refused with the number that it takes", "[diagnosis]") {
+    const setup::Setup setup = campaign::bc_setup();
+    records::ReadingTable table = campaign::empty_table(setup);
+    campaign::add_sphere_map(table, setup, 10, 5);
+    records::ReadingTable readings = campaign::measured(setup, table, 1);
+    readings.rows.resize(10);
+    CHECK_THROWS_WITH(diagnosis::prepare(setup, readings), Catch::Contains("takes 12 or more"));
+}
+
 TEST_CASE("each file of a table is a session where no row names one", "[diagnosis][over]") {
     const setup::Setup setup = campaign::bc_setup();
     records::ReadingTable monday = campaign::empty_table(setup), friday = monday;

@@ -2,11 +2,13 @@
 // from what is usual, and each test has its own zero.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 
 #include "diagnosis/diagnosis.h"
+#include "diagnosis/prepare.h"
 #include "effects/settings.h"
 #include "emulator/replay.h"
 #include "setup/setup.h"
@@ -272,7 +274,7 @@ TEST_CASE("readings held out have a zero of their own", "[diagnosis][stage]") {
     const Truth truth = rough(9, 4);
     const records::ReadingTable fitted = laser(truth, 4, 11);
     std::vector<double> explained;
-    for (const double zero_mm : {0.0, 0.02, -1.0}) {
+    for (const double zero_mm : {0.0, 0.02, -1.0, -201.33}) {  // the last: raw values of a counter
         const records::ReadingTable later = laser(truth, 2, 12, zero_mm);
         diagnosis::DiagnosisOptions options;
         options.holdout = &later;
@@ -281,6 +283,42 @@ TEST_CASE("readings held out have a zero of their own", "[diagnosis][stage]") {
     CHECK(explained[0] > 0.9);
     CHECK(explained[1] == Approx(explained[0]).epsilon(1e-9));
     CHECK(explained[2] == Approx(explained[0]).epsilon(1e-9));
+    CHECK(explained[3] == Approx(explained[0]).epsilon(1e-9));
+}
+
+TEST_CASE("a spoiled reading held out is told and refutes no cause", "[diagnosis][stage]") {
+    const Truth truth = rough(9, 4);
+    for (const double off_mm : {0.0, 4.3}) {
+        records::ReadingTable later = laser(truth, 2, 12);
+        *later.rows[23].value_mm += off_mm;
+        diagnosis::DiagnosisOptions options;
+        options.holdout = &later;
+        options.plan_next = false;
+        const diagnosis::Diagnosis d = diagnosis::diagnose(stage(), laser(truth, 4, 11), options);
+        INFO(off_mm << ' ' << said(d));
+        CHECK(d.explained > 0.9);
+        CHECK(d.after.set_aside == (off_mm > 0.0 ? 1 : 0));
+        CHECK(d.after.rms_before_um < 100.0);
+        CHECK(std::any_of(d.notes.begin(), d.notes.end(), [](const std::string& note) {
+                  return note.find("1 held-out readings fit nothing") != std::string::npos;
+              }) == (off_mm > 0.0));
+    }
+}
+
+TEST_CASE("the encoder of a hold-out has a zero of its own", "[diagnosis][stage]") {
+    records::ReadingTable log = laser(rough(9, 4), 2, 12);
+    for (records::Reading& row : log.rows) {
+        if (row.device == records::Device::none) continue;
+        row.device = records::Device::axis;
+        row.feature = "X";
+    }
+    const diagnosis::Prepared prepared = diagnosis::prepare(stage(), log);
+    for (records::Reading& row : log.rows)
+        if (row.value_mm) *row.value_mm += 57.0;
+    CHECK_NOTHROW(diagnosis::refuse_poor_holdout(prepared, log));
+    *log.rows[23].value_mm += 6.0;
+    CHECK_THROWS_WITH(diagnosis::refuse_poor_holdout(prepared, log),
+                      Catch::Contains("5.99 mm away"));
 }
 
 TEST_CASE("a bow seen at three targets is a table beside the scale", "[diagnosis][stage]") {

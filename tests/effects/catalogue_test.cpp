@@ -31,6 +31,42 @@ TEST_CASE("twice the parameter is twice the change, for every parameter of the c
         }
 }
 
+TEST_CASE("what slipped is what the device reads, not always a sphere", "[effects]") {
+    const Physics physics;
+    const auto words = [&](std::set<records::Device> devices) {
+        effects::DataExtent extent;
+        extent.devices = std::move(devices);
+        return effects::artefact_moved(physics.setup.artefacts, extent).what;
+    };
+    using records::Device;
+    for (const std::set<Device>& probed :
+         {std::set<Device>{}, {Device::touch}, {Device::sphere, Device::ballbar, Device::linear}})
+        CHECK_THAT(words(probed), Catch::Contains("sphere or cup"));
+    CHECK_THAT(words({Device::linear}), Catch::Contains("reflector"));
+    CHECK_THAT(words({Device::angle}), Catch::Contains("mirror"));
+    CHECK_THAT(words({Device::point}), Catch::Contains("part or target"));
+    CHECK_THAT(words({Device::linear, Device::axis}), Catch::Contains("target or an instrument"));
+    CHECK(effects::extent_of(physics.setup, physics.table).devices.count(Device::none) == 0);
+}
+
+TEST_CASE("pivot parameters are spoken of where a control has them", "[effects]") {
+    const auto remedy = [](const std::string& chain, const std::vector<std::string>& rotary) {
+        std::string text = "[machine]\nname = \"m\"\nchain = \"" + chain + "\"\n";
+        for (const std::string& axis : rotary)
+            text += "[machine.axis." + axis + "]\ndirection = [" +
+                    (axis == rotary.front() ? "0, 1, 0" : "0, 0, 1") + "]\npoint_mm = [0, 0, 0]\n";
+        std::vector<std::string> notes;
+        const setup::Setup setup = setup::parse_setup(text, "m.toml", notes);
+        return effects::find_effect(effects::make_catalogue(setup), "location")->remedy;
+    };
+    CHECK_THAT(remedy("w C B b X Y Z t", {"B", "C"}),
+               Catch::Contains("the control's pivot parameters"));
+    CHECK_THAT(remedy("w b Az Alt t", {"Alt", "Az"}), Catch::Contains("model of its axes") &&
+                                                          !Catch::Contains("pivot") &&
+                                                          !Catch::Contains("control"));
+    CHECK_THAT(remedy("w C b X t", {"C"}), !Catch::Contains("pivot"));
+}
+
 TEST_CASE("time constants, pitches and decays at their limits", "[effects]") {
     const Physics physics;
     const auto drift = [&](double tau_s) {

@@ -40,6 +40,20 @@ TEST_CASE("one servo log in many dialects gives the same readings") {
     }
 }
 
+TEST_CASE("a table of a Markdown page or of a terminal has a rule below its names") {
+    const std::string head = "Read by a tracker:\n\n| time | X cmd [mm] | X act [mm] |\n";
+    const std::string body = "| 0 | 1,5 | 1,501 |\n| 1 | 2,5 | 2,5015 |\n| 2 | - | ? |\n";
+    for (const char* rule :
+         {"|:---:|:---:|:---:|\n", "|------|-----|----|\n", "+---+---+---+\n", ""}) {
+        INFO(rule);
+        const auto rows = import_bench::read_rows(
+            import_bench::setup(), {imports::ImportKind::axis_log, head + rule + body, {}, ""});
+        REQUIRE(rows.size() == 2);
+        CHECK(rows[1].time_s == 1.0);
+        CHECK(*rows[1].value_mm == Approx(0.0015).epsilon(1e-9));
+    }
+}
+
 TEST_CASE("times as files write them") {
     const double day = *imports::seconds_of("2024-03-01");
     CHECK(day == 1709251200.0);  // date -u -d 2024-03-01 +%s
@@ -48,6 +62,7 @@ TEST_CASE("times as files write them") {
     CHECK(*imports::seconds_of("2024-03-01T08:15:30+01:00") - day == 26130.0);
     CHECK(*imports::seconds_of("01.03.2024 08:15:30") - day == 29730.0);
     CHECK(*imports::seconds_of("03/25/2024 8:15 PM") - day == 24 * 86400 + 72900.0);
+    CHECK(*imports::seconds_of("2024/03/01-08:15:30") - day == 29730.0);
     CHECK(*imports::seconds_of("08:15:30,5") == 29730.5);
     for (const char* bad : {"", "noon", "2024-02-30 08:00:00", "01/02/2024 08:00:00", "25:99",
                             "2024-03-01T", "08:15:30 CET", "2024-03-01T08:15:3x"})
@@ -93,7 +108,7 @@ TEST_CASE("what is no table is refused with its line") {
 }
 
 TEST_CASE("a value that is missing leaves its row out, with a note") {
-    for (const char* hole : {"", "NaN", "---", "n/a", "***"}) {
+    for (const char* hole : {"", "NaN", "---", "n/a", "***", "?"}) {
         INFO(hole);
         const Case log{
             imports::ImportKind::axis_log,

@@ -87,6 +87,22 @@ TEST_CASE("rivals are said of the cause that has them") {
     CHECK_THAT(report::answer(d), Catch::Contains("cannot tell C.backlash from its rivals"));
 }
 
+TEST_CASE("of two causes of one name the one in free form is said to be a table") {
+    diagnosis::Diagnosis d = one_cause();
+    diagnosis::Cause table = d.causes[0];
+    table.parameters.clear();
+    table.points = {{"gap", 0.0, 1e-5, 1e-6, "mm", "rad"}, {"gap", 9.0, 2e-5, 1e-6, "mm", "rad"}};
+    d.causes.push_back(table);
+    CHECK(report::cause_name(d, d.causes[0]) == "C.backlash");
+    CHECK(report::cause_name(d, d.causes[1]) == "C.backlash as a table");
+    CHECK_THAT(report::diagnosis_text(d), Catch::Contains("\nC.backlash as a table  "));
+    CHECK_THAT(report::diagnosis_page(d, "r.csv").body_html,
+               Catch::Contains("<h3>C.backlash</h3>") &&
+                   Catch::Contains("<h3>C.backlash as a table</h3>"));
+    d.causes.erase(d.causes.begin());
+    CHECK(report::cause_name(d, d.causes[0]) == "C.backlash");
+}
+
 TEST_CASE("an improbable cause is not said to be the cause: its rivals are") {
     diagnosis::Diagnosis d = one_cause();
     d.causes[0].probability = 0.004;

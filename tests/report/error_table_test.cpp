@@ -36,6 +36,18 @@ TEST_CASE("pitch error data take the error away within half a unit at every plac
     CHECK_FALSE(report::pitch_error_data({}));
 }
 
+TEST_CASE("a table of the measured places only is no data of a compensation", "[report]") {
+    diagnosis::Cause cause = waved(true);
+    cause.holds_between = false;
+    CHECK_FALSE(report::pitch_error_data(cause));
+    const std::string text = report::error_table(cause);
+    CHECK(text.find("pitch error data, from") == std::string::npos);
+    CHECK(text.find("no pitch error data: a control interpolates") != std::string::npos);
+    cause = waved(false);  // of a straightness none are expected
+    cause.holds_between = false;
+    CHECK(report::error_table(cause).find("pitch") == std::string::npos);
+}
+
 TEST_CASE("a free form prints every place with its sigma", "[report]") {
     const std::string text = report::error_table(waved(true));
     CHECK(text.find("EXX: at mm, error µm, sigma") != std::string::npos);
