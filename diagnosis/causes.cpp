@@ -91,10 +91,22 @@ std::string other_periods(const std::vector<double>& keys) {
     return keys.size() > periods_listed ? text + " and shorter ones" : text;
 }
 
+/// True for a parameter of an effect that some form of it contains, and that moves readings.
+bool is_seen_in_a_form(const Design& design, const ColumnGroup& group, std::size_t parameter) {
+    return std::any_of(design.groups().begin(), design.groups().end(), [&](const auto& entry) {
+        const ColumnGroup& form = entry.group;
+        if (form.effect != group.effect || form.since != group.since) return false;
+        const auto at = std::find(form.parameters.begin(), form.parameters.end(), parameter);
+        const auto k = at - form.parameters.begin();
+        return at != form.parameters.end() && (form.shape.size() > 0 || entry.gram(k, k) > 0.0);
+    });
+}
+
 }  // namespace
 
-std::vector<identification::Inseparable> unseen_of(const Design::Entry& entry) {
+std::vector<identification::Inseparable> unseen_of(const Design& design, std::size_t member) {
     std::vector<identification::Inseparable> groups;
+    const Design::Entry& entry = design.groups()[member];
     const ColumnGroup& group = entry.group;
     const auto& list = group.effect->parameters;
     const auto name = [&](std::size_t j) {
@@ -102,9 +114,7 @@ std::vector<identification::Inseparable> unseen_of(const Design::Entry& entry) {
             {group.effect->name, list[j].name, list[j].unit, list[j].component, 1.0, 0.0});
     };
     for (std::size_t j = 0; j < list.size(); ++j)
-        if (!list[j].is_key() && list[j].usual &&
-            std::find(group.parameters.begin(), group.parameters.end(), j) ==
-                group.parameters.end())
+        if (!list[j].is_key() && list[j].usual && !is_seen_in_a_form(design, group, j))
             groups.push_back({{name(j)}, {1.0}});
     const estimation::LinearFit fit =
         estimation::solve_ranked(entry.gram, Eigen::VectorXd::Zero(entry.gram.rows()));
@@ -138,7 +148,7 @@ Cause cause_of(const FoundModel& f, const Claim& claim) {
         cause.effect = group.effect->name;
         cause.since = group.since;
         cause.parameters = parameters_of(group, own, spread, f.model.variances.tau[claim.position]);
-        cause.unseen = unseen_of(f.design.groups()[member]);
+        cause.unseen = unseen_of(f.design, member);
         cause.what = group.effect->what + other_periods(f.judgement.equal_periods[claim.position]);
         cause.holds_between = f.judgement.interpolates[claim.position];
         cause.usual_cause = group.effect->cause;

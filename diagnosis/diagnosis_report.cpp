@@ -131,7 +131,8 @@ void describe_size(const Outcome& f, const Solution& solution, Diagnosis& d) {
             "repeated readings scatter {:.0f} times as much as is stated of the device: "
             "the noise is that of the repeats",
             f.judgement.scatter));
-    for (const auto& entry : f.design.groups()) {
+    for (std::size_t k = 0; k < f.design.groups().size(); ++k) {
+        const auto& entry = f.design.groups()[k];
         if (!entry.group.effect || entry.hidden || entry.group.is_change()) continue;
         const effects::EffectIdentity& identity = *entry.group.effect;
         if (!entry.visible() &&
@@ -139,7 +140,7 @@ void describe_size(const Outcome& f, const Solution& solution, Diagnosis& d) {
             d.unseen.push_back(identity.name);
         if (entry.visible() && effects::is_pivot(identity.kind) &&
             entry.group.parameters.size() == entry.group.effect->parameters.size())
-            for (identification::Inseparable& group : unseen_of(entry))
+            for (identification::Inseparable& group : unseen_of(f.design, k))
                 d.inseparable.push_back(std::move(group));
     }
 }
