@@ -114,7 +114,10 @@ std::vector<identification::Inseparable> unseen_of(const Design& design, std::si
             {group.effect->name, list[j].name, list[j].unit, list[j].component, 1.0, 0.0});
     };
     for (std::size_t j = 0; j < list.size(); ++j)
-        if (!list[j].is_key() && list[j].usual && !is_seen_in_a_form(design, group, j))
+        if (!list[j].is_key() && list[j].usual &&
+            std::find(group.parameters.begin(), group.parameters.end(), j) ==
+                group.parameters.end() &&
+            !is_seen_in_a_form(design, group, j))
             groups.push_back({{name(j)}, {1.0}});
     const estimation::LinearFit fit =
         estimation::solve_ranked(entry.gram, Eigen::VectorXd::Zero(entry.gram.rows()));

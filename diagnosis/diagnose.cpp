@@ -114,7 +114,10 @@ bool corrected(Prepared& p, Searched& s, Round& round) {
     bool changed = !s.model.members.empty() && take_in_again(p, left, s, round);
     const Sizes sizes =
         sizes_of(s.design, s.model, 1.0, std::vector<bool>(s.model.members.size(), false));
-    const auto wild = wild_readings(sizes.remainder.head(left.size()), round.used);
+    // Noise that nobody states may be far below what is usual of the device.
+    const bool assumed = round.noise.model.source == NoiseSource::assumed;
+    const double least = assumed ? std::min(1.0, s.model.variances.nu) : 1.0;
+    const auto wild = wild_readings(sizes.remainder.head(left.size()) / least, round.used);
     if (!wild.empty()) {
         leave_out(p, wild, round);
         changed = true;

@@ -24,11 +24,9 @@ namespace {
 /// Minimum half width of an interval of the shrink: the draws are linearised, and the comparison
 /// uses another fit of the set-up.
 constexpr double least_half_width = 0.01;
-constexpr double effects_tried = 60.0;  ///< number of tests for which the significance of an effect
-                                        ///< is corrected
-constexpr double noise_is_off = 0.1;    ///< relative: larger deviations mean that the stated noise
-                                        ///< is wrong
-constexpr double least_weight = 1e-4;   ///< of an alternative model
+constexpr double noise_is_off = 0.1;   ///< relative: larger deviations mean that the stated noise
+                                       ///< is wrong
+constexpr double least_weight = 1e-4;  ///< of an alternative model
 constexpr std::size_t most_truths = 24;
 
 double independent_readings(const Outcome& f) {
@@ -143,17 +141,6 @@ void describe_size(const Outcome& f, const Solution& solution, Diagnosis& d) {
             for (identification::Inseparable& group : unseen_of(f.design, k))
                 d.inseparable.push_back(std::move(group));
     }
-}
-
-double chance_of(const Outcome& f) {
-    if (f.model.members.empty()) return 1.0;
-    const Eigen::VectorXd y = f.design.projection().beside(f.design.data());
-    const Sizes sizes = sizes_of(f.design, f.model, f.judgement.floor, f.judgement.large);
-    double width = 0.0;
-    for (const std::size_t m : f.model.members)
-        width += static_cast<double>(f.design.group(m).columns());
-    const double explained = (y.squaredNorm() - sizes.remainder.squaredNorm()) / f.judgement.floor;
-    return std::min(1.0, effects_tried * estimation::chi_squared_tail(explained, width));
 }
 
 /// Free forms of one axis without a dominant one: their sum has no textbook name.
@@ -290,7 +277,7 @@ Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options) {
         merge_free_forms(f, claims);
     }
     d.verdict = verdict_of(f.judgement, claims);
-    d.p_value = chance_of(f);
+    d.p_value = f.judgement.chance;
     d.explained = f.judgement.gap ? std::clamp(f.judgement.part, 0.0, 1.0) : 0.0;
     d.between_places = f.judgement.between_places;
     if (std::max(f.judgement.part, f.judgement.beside_zeros) <= 0.0) written = written_setup(f);

@@ -77,6 +77,10 @@ struct RepeatedRows {
     const Eigen::VectorXd& rounding_mm;  ///< least deviation of a row (identification/resolution.h)
 };
 
+/// The smallest part of the noise of a device, by sigma and its scale, that its last digits are.
+double least_by_rounding(const RepeatedRows& rows, const Eigen::VectorXd& sigma_mm,
+                         const NoiseModel& noise);
+
 /// Noise from repeated poses and passes: differences of their residuals, after removing a shift
 /// between the two. No device is better than the last digit of its readings, however well they
 /// repeat. Devices without enough repeats keep the values of `start`; `source` says whether repeats

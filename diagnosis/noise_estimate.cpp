@@ -320,6 +320,16 @@ std::size_t fewest(records::Device device) {
 
 }  // namespace
 
+double least_by_rounding(const RepeatedRows& rows, const Eigen::VectorXd& sigma_mm,
+                         const NoiseModel& noise) {
+    std::set<records::Device> present;
+    for (const NoiseBlock& block : rows.blocks) present.insert(block.device);
+    double least = 1.0;
+    for (const records::Device device : present)
+        least = std::min(least, rounding_of(rows, sigma_mm, device) / noise.of(device).scale);
+    return least;
+}
+
 NoiseModel noise_from_repeats(const RepeatedRows& rows, const Eigen::VectorXd& residual_mm,
                               const Eigen::VectorXd& sigma_mm, const NoiseModel& start) {
     const std::vector<NoiseBlock> blocks = compared_rows(rows.blocks, rows.used);

@@ -32,7 +32,7 @@ struct Prepared {
     identification::BaseModel base;  ///< location errors and set-up; residual in mm
     std::vector<NoiseBlock> blocks;
     std::vector<Eigen::Index> cycle;  ///< of a laser test (diagnosis/cycles.h); else empty
-    Eigen::VectorXd rounding_mm;  ///< deviation of each device row by its last digit, mm or rad
+    Eigen::VectorXd rounding_mm;      ///< deviation of each device row by its last digit, mm or rad
     Folds folds;
 };
 
@@ -54,7 +54,8 @@ void refuse_one_session(const Prepared& prepared);
 
 /// True when the simulation already contains the effect.
 bool modelled(const Prepared& prepared, const effects::Effect& effect);
-/// False for what is modelled, and for a drift in readings without a clock: it has no course there.
+/// False for what is modelled, for a drift in readings without a clock (it has no course there),
+/// and for a rounding control in a log that rounds itself.
 bool is_searched(const Prepared& prepared, const effects::Effect& effect);
 
 }  // namespace trunnion::diagnosis

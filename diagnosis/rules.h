@@ -17,6 +17,7 @@ constexpr double table_prior = -3.912023005428146;  ///< ln 0.02: free form, dri
 // A gap is reported when both the evidence and the left-out readings support it.
 constexpr double least_evidence = 3.0;   ///< nats, for the whole model
 constexpr double plain_evidence = 15.0;  ///< ... above which left-out blocks need not agree
+constexpr double plain_chance = 1e-3;    ///< ... or below this chance, where repeats tell the noise
 constexpr double least_t = 2.0;          ///< t statistic of the loss saved on left-out blocks
 constexpr double least_saving = 0.02;    ///< of the noise variance
 constexpr double least_driver = 0.08;    ///< of the noise variance: a single driver establishes a

@@ -223,7 +223,7 @@ namespace {
 /// True where the fit gives a parameter a size that it cannot have: no control rounds its positions
 /// by 500 times the increment, whatever this explains.
 bool is_impossible(Design& design, const Model& model) {
-    constexpr double beyond = 0.5;  // of the range: noise may lead out of it
+    constexpr double beyond = 0.2;  // of the range: noise may lead out of it
     for (std::size_t k = 0; k < model.members.size(); ++k) {
         const ColumnGroup& group = design.group(model.members[k]);
         if (!group.has_parts()) continue;

@@ -15,7 +15,8 @@ namespace {
 constexpr double spoiled_part = 0.02;     ///< of all readings, beforehand (assumed)
 constexpr double many_readings = 1000.0;  ///< of which a few spoil no fit
 constexpr double far_off = 4.5;           ///< deviations of the others
-constexpr double least_scale = 0.5;       ///< minimum of that deviation, in sigma
+constexpr double least_scale = 0.5;       ///< minimum of that deviation, in sigma ...
+constexpr double least_assumed = 0.05;    ///< ... that nobody states
 
 /// True where each reading is taken for itself, so that one may go wrong alone.
 bool is_single(records::Device device) {
@@ -76,7 +77,8 @@ DoubtfulReadings doubtful_readings(const Prepared& prepared, const std::vector<b
     std::vector<double> size;
     for (const std::size_t i : rows) size.push_back(left(static_cast<Eigen::Index>(i)));
     DoubtfulReadings doubtful;
-    doubtful.usual = std::max(least_scale, estimation::robust_deviation(std::move(size)));
+    doubtful.usual = std::max(prepared.base.noise_given ? least_scale : least_assumed,
+                              estimation::robust_deviation(std::move(size)));
     for (const std::size_t i : rows) {
         const double own = left(static_cast<Eigen::Index>(i));
         if (own <= far_off * doubtful.usual) continue;

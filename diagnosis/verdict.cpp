@@ -109,17 +109,31 @@ double evidence_beside_zeros(Design& design, const Model& model,
     return evidence(design, model) - best;
 }
 
+/// Chance that a model explains so much of noise, for as many effects as there are.
+double chance_of(const Design& design, const Model& model, const Judgement& j, const Sizes& sizes) {
+    constexpr double effects_tried = 60.0;
+    if (model.members.empty()) return 1.0;
+    const Eigen::VectorXd y = design.projection().beside(design.data());
+    double width = 0.0;
+    for (const std::size_t m : model.members)
+        width += static_cast<double>(design.group(m).columns());
+    const double explained = (y.squaredNorm() - sizes.remainder.squaredNorm()) / j.floor;
+    return std::min(1.0, effects_tried * estimation::chi_squared_tail(explained, width));
+}
+
 /// True when there is more than noise. Without a driver the evidence must be confirmed by left-out
-/// readings.
+/// readings, unless repeats tell the noise and it is far too small for what was found.
 bool is_gap(Design& design, const Model& model, const Judgement& j, const Sizes& sizes,
-            const Saving& saving) {
+            const Saving& saving, bool repeated) {
     if (std::any_of(j.large.begin(), j.large.end(), [](bool b) { return b; })) return true;
     double driver = 0.0;
     for (std::size_t k = 0; k < model.members.size(); ++k)
         if (kind_of(design, model, k) == GroupKind::driver) driver += sizes.square[k];
     if (j.evidence < rules::least_evidence) return false;
     if (driver > rules::least_driver * j.floor * design.rows()) return true;
-    if (saving.t < rules::least_t && j.evidence < rules::plain_evidence) return false;
+    const bool plain =
+        j.evidence >= rules::plain_evidence || (repeated && j.chance < rules::plain_chance);
+    if (saving.t < rules::least_t && !plain) return false;
     return j.before - j.after >= rules::least_saving * j.floor;
 }
 
@@ -197,7 +211,10 @@ Judgement judged(FoldColumns& rows, const Prepared& prepared, const Model& model
     // So are more spoiled readings than an instrument has.
     const auto count = static_cast<double>(std::count(used.begin(), used.end(), false));
     const bool spoiled = count > rules::most_outliers * static_cast<double>(used.size());
-    j.gap = spoiled || beyond_noise || is_gap(design, model, j, sizes, saving_of(before, after));
+    j.chance = chance_of(design, model, j, sizes);
+    const bool repeated = noise.model.source == NoiseSource::repeats;
+    j.gap = spoiled || beyond_noise ||
+            is_gap(design, model, j, sizes, saving_of(before, after), repeated);
     j.scatter = scatter_of(prepared, noise.model);
     j.only_scatter = !j.gap && j.scatter > rules::most_scatter;
     j.gap = j.gap || j.only_scatter;

@@ -87,7 +87,8 @@ Eigen::MatrixXd scaled_gram(const GroupEquations& equations, const Eigen::Vector
 constexpr double least_size = 1e-3;  ///< groups below this size count as absent
 
 /// Standard deviation that maximises the likelihood of a remainder `square` with `freedom` degrees
-/// of freedom and the prior: Newton's method for its logarithm.
+/// of freedom and the prior: Newton's method for its logarithm. The likelihood has one maximum, so
+/// that the least size is the best one where it is larger.
 double best_noise(double square, double freedom, const NoisePrior& prior) {
     const double weight = 1.0 / (prior.spread * prior.spread);
     double log_nu = 0.5 * std::log(std::max(1e-12, square) / std::max(1.0, freedom));
@@ -98,7 +99,7 @@ double best_noise(double square, double freedom, const NoisePrior& prior) {
         log_nu += std::clamp(step, -0.5, 0.5);
         if (std::abs(step) < 1e-9) break;
     }
-    return std::exp(log_nu);
+    return std::max(prior.least, std::exp(log_nu));
 }
 
 double likelihood_of(const GroupEquations& equations, const FactoredMembers& members,

@@ -33,10 +33,11 @@ struct GroupEquations {
     Eigen::Index first(std::size_t group) const;
 };
 
-/// Prior of ln nu: mean l0 and standard deviation s.
+/// Prior of ln nu: mean l0 and standard deviation s; nu is at least `least`.
 struct NoisePrior {
     double log_mean = 0.0;
     double spread = 0.3;
+    double least = 0.0;
 };
 
 struct Variances {

@@ -111,6 +111,25 @@ bool are_met_again(std::vector<double> values, const std::set<Place>& places) {
 
 }  // namespace
 
+namespace {
+
+/// True when neighbouring values are not the same distance apart: a log at constant speed without
+/// noise has even steps, which are no counts.
+bool vary(std::vector<double> values) {
+    constexpr double even = 0.9;  // part of the steps
+    sort_apart(values);
+    if (values.size() < 3) return false;
+    std::vector<double> steps;
+    for (std::size_t k = 1; k < values.size(); ++k) steps.push_back(values[k] - values[k - 1]);
+    const double usual = estimation::median(steps);
+    const auto same = std::count_if(steps.begin(), steps.end(), [&](double step) {
+        return std::abs(step - usual) < 0.25 * usual;
+    });
+    return static_cast<double>(same) < even * static_cast<double>(steps.size());
+}
+
+}  // namespace
+
 Eigen::VectorXd rounding(const records::ReadingTable& table, const emulator::Replay& replay) {
     using Key = std::tuple<records::Device, std::string, int>;
     std::map<Key, std::vector<std::size_t>> alike;
@@ -129,14 +148,16 @@ Eigen::VectorXd rounding(const records::ReadingTable& table, const emulator::Rep
             counts.push_back(values.back());
             places.insert({row.commanded.value, log ? row.time_s : 0.0});
         }
-        if (!are_met_again(counts, places)) counts.clear();
+        if (log) sort_apart(counts);
+        const double digit = log ? decimal_step(counts) : 0.0;
+        if (!are_met_again(counts, places) && !(log && vary(counts))) counts.clear();
         // A log that stands still most of the time repeats a few round positions.
         if (log) {
             std::sort(values.begin(), values.end());
             values.erase(std::unique(values.begin(), values.end()), values.end());
         }
         const double spread =
-            spread_of(std::max(decimal_step(values), counter_step(std::move(counts))));
+            spread_of(std::max({decimal_step(values), digit, counter_step(std::move(counts))}));
         for (const std::size_t i : rows)
             spread_mm(static_cast<Eigen::Index>(i)) = first.angular ? rad_from_deg(spread) : spread;
     }

@@ -22,9 +22,9 @@ double counter_step(std::vector<double> values);
 /// / sqrt(12). Steps are looked for in mm and in degrees. Of a servo log the digit is that of
 /// commanded and actual positions, the count that of actual ones. Each device and feature has a
 /// step of its own; of a servo log each number of digits before the decimal point, because logs
-/// keep so many digits. Values that grow in even steps with the position are no counts: each count
-/// must have been read at two places (of a log: times) on average. 0 for rows without a value or a
-/// step.
+/// keep so many digits, and of those of actual positions alone if they have fewer. Values that grow
+/// in even steps with the position are no counts: each count must have been read at two places (of
+/// a log: times) on average. 0 for rows without a value or a step.
 Eigen::VectorXd rounding(const records::ReadingTable& table, const emulator::Replay& replay);
 
 /// Raises the standard deviation of rows to that of their rounding, except where a row states its
