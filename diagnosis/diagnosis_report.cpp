@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "diagnosis/causes.h"
 #include "diagnosis/changes.h"
@@ -258,24 +259,67 @@ void add_unknown(const Outcome& f, Diagnosis& d) {
     d.causes.insert(at, std::move(unknown));
 }
 
+Outcome with_judgement(const Outcome& found, const Judgement& judgement) {
+    return {found.prepared, found.design, found.setting,       found.model, judgement,
+            found.noise,    found.used,   found.beside_set_up, found.found};
+}
+
+/// What is written, and what is claimed beside that.
+struct Told {
+    Written written;
+    Judgement judgement;
+    std::vector<Claim> claims;
+};
+
+Told told_of(const Outcome& found, const records::ReadingTable* holdout) {
+    Told told{written_setup(found), {}, {}};
+    told.judgement = as_written(found, told.written, holdout);
+    const Outcome f = with_judgement(found, told.judgement);
+    if (!f.judgement.gap) return told;
+    const Sizes sizes = sizes_of(f.design, f.model, f.judgement.floor, f.judgement.large);
+    told.claims = claims_of({f.design, f.setting}, f.model, sizes,
+                            {f.judgement.support, f.found, f.prepared.folds,
+                             std::max(f.judgement.part, f.judgement.beside_zeros)});
+    merge_free_forms(f, told.claims);
+    return told;
+}
+
+/// The judgement with causes that do not hold between their places, because a ripple that these do
+/// not resolve is the more likely one: both are the same at the places and differ between them.
+std::optional<Judgement> doubted_by_ripples(const Outcome& f, const std::vector<Claim>& claims) {
+    Judgement judgement = f.judgement;
+    bool any = false;
+    for (const Claim& claim : claims) {
+        if (claim.probability >= rules::claimed || claim.share < rules::between_part ||
+            !judgement.interpolates[claim.position])
+            continue;
+        const bool rippled = std::any_of(
+            claim.rival_groups.begin(), claim.rival_groups.end(), [&](std::size_t group) {
+                return f.design.groups()[group].only_rival &&
+                       f.design.group(group).kind == GroupKind::periodic;
+            });
+        if (!rippled) continue;
+        any = true;
+        for (std::size_t k = 0; k < f.model.members.size(); ++k)
+            if (f.design.group(f.model.members[k]).name == claim.name)
+                judgement.interpolates[k] = false;
+    }
+    judgement.between_places &= !any;
+    return any ? std::optional(std::move(judgement)) : std::nullopt;
+}
+
 }  // namespace
 
 Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options) {
-    Written written = written_setup(found);
-    const Judgement judgement = as_written(found, written, options.holdout);
-    const Outcome f{found.prepared, found.design, found.setting,       found.model, judgement,
-                    found.noise,    found.used,   found.beside_set_up, found.found};
+    Told told = told_of(found, options.holdout);
+    if (const auto doubted = doubted_by_ripples(found, told.claims))
+        told = told_of(with_judgement(found, *doubted), options.holdout);
+    Written& written = told.written;
+    const Outcome f = with_judgement(found, told.judgement);
+    const std::vector<Claim>& claims = told.claims;
     Diagnosis d;
     const Solution solution = solved(f.design, f.model);
     describe_size(f, solution, d);
-    std::vector<Claim> claims;
-    if (f.judgement.gap) {
-        const Sizes sizes = sizes_of(f.design, f.model, f.judgement.floor, f.judgement.large);
-        claims = claims_of({f.design, f.setting}, f.model, sizes,
-                           {f.judgement.support, f.found, f.prepared.folds,
-                            std::max(f.judgement.part, f.judgement.beside_zeros)});
-        merge_free_forms(f, claims);
-    }
     d.verdict = verdict_of(f.judgement, claims);
     d.p_value = f.judgement.chance;
     d.explained = f.judgement.gap ? std::clamp(f.judgement.part, 0.0, 1.0) : 0.0;
