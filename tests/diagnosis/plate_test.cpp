@@ -183,4 +183,26 @@ TEST_CASE("where the tables of a few points fail elsewhere, their textbook forms
     }
 }
 
+// Usual is 10 um; this instrument is far better, and nobody says so.
+TEST_CASE("a spoiled coordinate is set aside where nobody states the noise", "[diagnosis]") {
+    setup::Setup setup = bench();
+    setup.model.noise_um.clear();
+    records::ReadingTable table = grid();
+    for (records::Reading& row : table.rows) row.session = "a";
+    table.rows.resize(60);
+    setup::Setup real = setup;
+    real.effects.push_back(
+        effects::parse_injection("X.scale: scale_ppm=12", effects::make_catalogue(setup)));
+    records::ReadingTable read = emulator::predicted(real, table, effects::active_models(real));
+    std::mt19937_64 engine(3);
+    std::normal_distribution<double> noise(0.0, 2e-4);
+    for (records::Reading& row : read.rows) *row.value_mm += noise(engine);
+    *read.rows[30].value_mm += 0.015;
+    const diagnosis::Diagnosis d = diagnosis::diagnose(setup, read);
+    INFO(said(d));
+    CHECK(d.outliers == 1);
+    CHECK(d.verdict != diagnosis::Verdict::no_gap);
+    CHECK(d.noise_um.value() < 0.4);
+}
+
 }  // namespace trunnion

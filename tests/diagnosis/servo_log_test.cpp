@@ -250,4 +250,19 @@ TEST_CASE("the lag of a single move is written, beside the noise that the axis h
     }
 }
 
+// Nothing is wrong with a control whose encoder has steps.
+TEST_CASE("an encoder of coarse steps is no control that rounds", "[diagnosis]") {
+    constexpr double step_mm = 0.01;
+    records::ReadingTable table = log("a", 1500, 0.3);
+    for (records::Reading& row : table.rows) {
+        double& at_mm = row.commanded[Axis::X];
+        at_mm = std::round(1e6 * at_mm) / 1e6;
+        row.value_mm = step_mm * std::round(at_mm / step_mm) - at_mm;
+    }
+    const diagnosis::Diagnosis d = diagnosis::diagnose(machine(), table);
+    INFO(said(d));
+    CHECK(d.verdict == diagnosis::Verdict::no_gap);
+    CHECK(d.noise_um.value() == Approx(1e3 * step_mm / std::sqrt(12.0)).epsilon(0.1));
+}
+
 }  // namespace trunnion
