@@ -151,30 +151,9 @@ bool modelled(const Prepared& prepared, const effects::Effect& effect) {
     return std::find(names.begin(), names.end(), effect.name) != names.end();
 }
 
-namespace {
-
-/// True for a log of axes whose noise is the step of its own positions: what the log rounds looks
-/// like a control that rounds.
-bool is_rounded_log(const Prepared& prepared) {
-    constexpr double most = 0.9;  // of sigma
-    for (std::size_t i = 0; i < prepared.replay.size(); ++i) {
-        const auto row = static_cast<Eigen::Index>(i);
-        if (prepared.replay.contact(i).device != records::Device::axis ||
-            prepared.rounding_mm(row) < most * prepared.base.sigma_mm(row))
-            return false;
-    }
-    return true;
-}
-
-}  // namespace
-
 bool is_searched(const Prepared& prepared, const effects::Effect& effect) {
-    if (modelled(prepared, effect)) return false;
-    switch (effect.kind) {
-        case effects::EffectKind::thermal_drift: return records::has_times(prepared.table);
-        case effects::EffectKind::control_rounding: return !is_rounded_log(prepared);
-        default: return true;
-    }
+    const bool drift = effect.kind == effects::EffectKind::thermal_drift;
+    return !modelled(prepared, effect) && (!drift || records::has_times(prepared.table));
 }
 
 }  // namespace trunnion::diagnosis

@@ -54,8 +54,7 @@ void refuse_one_session(const Prepared& prepared);
 
 /// True when the simulation already contains the effect.
 bool modelled(const Prepared& prepared, const effects::Effect& effect);
-/// False for what is modelled, for a drift in readings without a clock (it has no course there),
-/// and for a rounding control in a log that rounds itself.
+/// False for what is modelled, and for a drift in readings without a clock: it has no course there.
 bool is_searched(const Prepared& prepared, const effects::Effect& effect);
 
 }  // namespace trunnion::diagnosis

@@ -4,12 +4,14 @@
 #include <cmath>
 #include <utility>
 
+#include "base/units.h"
 #include "diagnosis/candidate_groups.h"
 #include "diagnosis/changes.h"
 #include "diagnosis/machine_jump.h"
 #include "diagnosis/ripples.h"
 #include "diagnosis/solution.h"
 #include "effects/settings.h"
+#include "estimation/quantiles.h"
 #include "identification/identify.h"
 
 namespace trunnion::diagnosis {
@@ -52,6 +54,33 @@ struct KeyedEffect {
     std::vector<double> keys;
 };
 
+/// Step of the actual positions of a log, in mm or in degrees; 0 without one, endless where no axis
+/// of this kind is logged.
+double step_of_log(const Prepared& p, bool angular) {
+    std::vector<double> spread;
+    for (std::size_t i = 0; i < p.replay.size(); ++i)
+        if (p.replay.contact(i).device == records::Device::axis &&
+            p.table.rows[p.replay.table_row(i)].angular == angular)
+            spread.push_back(p.rounding_mm(static_cast<Eigen::Index>(i)));
+    if (spread.empty()) return HUGE_VAL;
+    const double step = std::sqrt(12.0) * estimation::median(std::move(spread));
+    return angular ? deg_from_rad(step) : step;
+}
+
+/// True for a control that rounds as finely as the log itself: the same columns, and no cause.
+bool is_step_of_log(const Prepared& p, const effects::Effect& effect,
+                    const std::vector<double>& keys) {
+    constexpr double alike = 2.0;
+    if (effect.kind != effects::EffectKind::control_rounding || p.replay.size() == 0 ||
+        p.replay.contact(0).device != records::Device::axis)
+        return false;
+    for (std::size_t j = 0; j < keys.size(); ++j)
+        if (effect.parameters[j].is_key() &&
+            keys[j] > alike * step_of_log(p, effect.parameters[j].name == "increment_deg"))
+            return false;
+    return true;
+}
+
 /// The `count` most promising settings of each keyed effect.
 std::vector<KeyedEffect> promising(const Prepared& p, KeySearch& keys,
                                    const KeySearch::Remainder& left, int count) {
@@ -59,7 +88,7 @@ std::vector<KeyedEffect> promising(const Prepared& p, KeySearch& keys,
     for (const effects::Effect& effect : p.catalogue) {
         if (!has_keys(effect) || !is_searched(p, effect)) continue;
         for (auto& setting : keys.best(effect, left, count))
-            list.push_back({&effect, std::move(setting)});
+            if (!is_step_of_log(p, effect, setting)) list.push_back({&effect, std::move(setting)});
     }
     return list;
 }
