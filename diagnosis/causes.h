@@ -17,8 +17,8 @@ struct FoundModel {
 /// Without its held-out results.
 Cause cause_of(const FoundModel& found, const Claim& claim);
 
-/// Directions of the parameters of an effect, in a form of it, that these readings do not determine.
-/// A parameter that another form of it has is held at 0, not unseen.
+/// Directions of the parameters of an effect, in a form of it, that these readings do not
+/// determine. A parameter that another form of it has is held at 0, not unseen.
 std::vector<identification::Inseparable> unseen_of(const Design& design, std::size_t group);
 
 }  // namespace trunnion::diagnosis

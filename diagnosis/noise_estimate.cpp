@@ -277,7 +277,7 @@ void remove_zeros_of_cycles(const std::vector<Eigen::Index>& cycle, std::vector<
     }
 }
 
-/// The largest part of a row's deviation that its last digit is, in typical rows of a device.
+/// The part of the deviation of typical rows of a device that is due to their last digit.
 double rounding_of(const RepeatedRows& rows, const Eigen::VectorXd& sigma_mm,
                    records::Device device) {
     std::vector<double> part;

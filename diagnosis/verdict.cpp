@@ -124,7 +124,7 @@ double chance_of(const Design& design, const Model& model, const Judgement& j, c
 /// True when there is more than noise. Without a driver the evidence must be confirmed by left-out
 /// readings, unless repeats tell the noise and it is far too small for what was found.
 bool is_gap(Design& design, const Model& model, const Judgement& j, const Sizes& sizes,
-            const Saving& saving, bool repeated) {
+            const Saving& saving) {
     if (std::any_of(j.large.begin(), j.large.end(), [](bool b) { return b; })) return true;
     double driver = 0.0;
     for (std::size_t k = 0; k < model.members.size(); ++k)
@@ -132,7 +132,7 @@ bool is_gap(Design& design, const Model& model, const Judgement& j, const Sizes&
     if (j.evidence < rules::least_evidence) return false;
     if (driver > rules::least_driver * j.floor * design.rows()) return true;
     const bool plain =
-        j.evidence >= rules::plain_evidence || (repeated && j.chance < rules::plain_chance);
+        j.evidence >= rules::plain_evidence || (j.repeated && j.chance < rules::plain_chance);
     if (saving.t < rules::least_t && !plain) return false;
     return j.before - j.after >= rules::least_saving * j.floor;
 }
@@ -212,9 +212,8 @@ Judgement judged(FoldColumns& rows, const Prepared& prepared, const Model& model
     const auto count = static_cast<double>(std::count(used.begin(), used.end(), false));
     const bool spoiled = count > rules::most_outliers * static_cast<double>(used.size());
     j.chance = chance_of(design, model, j, sizes);
-    const bool repeated = noise.model.source == NoiseSource::repeats;
-    j.gap = spoiled || beyond_noise ||
-            is_gap(design, model, j, sizes, saving_of(before, after), repeated);
+    j.repeated = noise.model.source == NoiseSource::repeats;
+    j.gap = spoiled || beyond_noise || is_gap(design, model, j, sizes, saving_of(before, after));
     j.scatter = scatter_of(prepared, noise.model);
     j.only_scatter = !j.gap && j.scatter > rules::most_scatter;
     j.gap = j.gap || j.only_scatter;

@@ -24,6 +24,7 @@ struct Judgement {
     double beside_zeros = 0.0;         ///< the same with all zeros predicted both times
     double evidence = 0.0;             ///< of the model beside the scatter of zeros, nats
     double chance = 1.0;               ///< that noise alone lets a model explain as much
+    bool repeated = false;             ///< repeats tell the noise
     bool gap = false;
     double scatter = 1.0;       ///< of repeats, relative to the noise that is stated of the devices
     bool only_scatter = false;  ///< the gap is nothing but that

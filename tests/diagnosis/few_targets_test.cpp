@@ -27,10 +27,10 @@ setup::Setup table() {
 using Error = double (*)(int target, double q);
 
 /// One pass forward, or passes to and fro; `first_rad`: where they begin.
-records::ReadingTable read(Error error, int targets, int passes, double noise_rad, unsigned seed,
+records::ReadingTable read(Error error, int targets, int passes, unsigned seed,
                            double first_rad = 0.0) {
     std::mt19937_64 engine(seed);
-    std::normal_distribution<double> noise(0.0, noise_rad);
+    std::normal_distribution<double> noise(0.0, 1e-6);
     records::ReadingTable table;
     table.path = "c.csv";
     table.axes = {Axis::C};
@@ -80,25 +80,24 @@ double left_rad(const setup::Setup& setup, const records::ReadingTable& table) {
 
 TEST_CASE("twelve places of one pass show an eccentric encoder", "[diagnosis]") {
     for (const unsigned seed : {1u, 2u, 3u, 4u}) {
-        const diagnosis::Diagnosis d =
-            diagnosis::diagnose(table(), read(eccentric, 12, 1, 1e-6, seed));
+        const diagnosis::Diagnosis d = diagnosis::diagnose(table(), read(eccentric, 12, 1, seed));
         INFO(seed);
         REQUIRE_FALSE(d.causes.empty());
         CHECK(d.causes.front().effect == "C.positioning");
         CHECK(d.causes.front().probability > 0.5);
         CHECK(d.explained > 0.8);
         // Between the places, too: all of it is 23 urad.
-        CHECK(left_rad(d.setup, read(eccentric, 12, 1, 1e-6, 99, 0.26)) < 3e-6);
+        CHECK(left_rad(d.setup, read(eccentric, 12, 1, 99, 0.26)) < 3e-6);
     }
 }
 
 TEST_CASE("errors of its own at each target of a turn are written for these targets",
           "[diagnosis]") {
-    const diagnosis::Diagnosis d = diagnosis::diagnose(table(), read(any, 12, 6, 1e-6, 5));
+    const diagnosis::Diagnosis d = diagnosis::diagnose(table(), read(any, 12, 6, 5));
     CHECK_FALSE(d.between_places);
     CHECK(d.explained > 0.8);
     CHECK(d.writes_causes);
-    CHECK(left_rad(d.setup, read(any, 12, 4, 1e-6, 98)) < 1.3e-6);
+    CHECK(left_rad(d.setup, read(any, 12, 4, 98)) < 1.3e-6);
     const auto listed = std::find_if(d.causes.begin(), d.causes.end(),
                                      [](const auto& c) { return !c.points.empty(); });
     REQUIRE(listed != d.causes.end());
