@@ -22,6 +22,14 @@ Stream stream_of(const records::Reading& row) {
     return {row.test, row.device, row.feature, {d.x(), d.y(), d.z()}};
 }
 
+/// True for rows at one position under one condition: another load may leave a reading as it was.
+bool same_place(const records::Reading& a, const records::Reading& b) {
+    return a.commanded == b.commanded && a.session == b.session && a.instrument == b.instrument &&
+           a.mode == b.mode && a.load_kg == b.load_kg && a.clamped == b.clamped &&
+           a.spindle_rad == b.spindle_rad && a.extension_mm == b.extension_mm &&
+           a.temperature_c == b.temperature_c;
+}
+
 /// Which rows are copies, and what their number is measured by.
 struct Copies {
     std::vector<bool> is_copy;
@@ -39,7 +47,7 @@ Copies copies_of(const records::ReadingTable& table) {
         values[*row.value_mm] += 1.0;
         const auto [at, first] = last.try_emplace(stream_of(row), &row);
         const records::Reading& before = *std::exchange(at->second, &row);
-        if (first || !(before.commanded == row.commanded)) continue;
+        if (first || !same_place(before, row)) continue;
         ++found.followers;
         found.is_copy[i] = *before.value_mm == *row.value_mm;
         found.count += found.is_copy[i] ? 1 : 0;

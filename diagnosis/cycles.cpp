@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/units.h"
+#include "diagnosis/noise.h"
 
 namespace trunnion::diagnosis {
 namespace {
@@ -18,8 +19,7 @@ std::optional<Axis> measured_axis(const emulator::Replay& replay,
         const double first = replay.sample(0).position[axis];
         bool moves = false;
         for (std::size_t i = 0; i < replay.size(); ++i) {
-            const records::Device device = replay.contact(i).device;
-            if (device != records::Device::linear && device != records::Device::angle) return {};
+            if (!reads_targets(replay.contact(i).device)) return {};
             moves = moves || replay.sample(i).position[axis] != first;
         }
         if (moves && moving) return {};

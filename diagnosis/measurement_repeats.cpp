@@ -128,7 +128,6 @@ records::ReadingTable parallel_lines(const Again& again, const kinematics::AxisG
 /// Lines beside those of the present readings, one for each axis that rests; and all of them,
 /// because an angle about one axis and one about another may look alike on a single line.
 void add_parallel_lines(const Again& again, std::vector<Measurement>& list) {
-    if (logs_axes(again.table)) return;
     records::ReadingTable all = again.table;
     all.rows.clear();
     std::string names;
@@ -157,8 +156,13 @@ void add_parallel_lines(const Again& again, std::vector<Measurement>& list) {
                           std::move(all)));
 }
 
-/// The target on the tool further from the spindle nose: one of its own.
+/// The target on the tool further from the spindle nose: one of its own. A stage, a telescope and
+/// an arm have no spindle.
 void add_longer_tool(const Again& again, std::vector<Measurement>& list) {
+    const kinematics::Chain& chain = again.setup.machine.chain;
+    if (!chain.find(Axis::X) || !chain.find(Axis::Y) || !chain.find(Axis::Z)) return;
+    if (!has(again.table, records::Device::linear) && !has(again.table, records::Device::point))
+        return;
     setup::Setup setup = again.setup;
     bool any = false;
     for (setup::Artefact& target : setup.artefacts)
@@ -166,9 +170,7 @@ void add_longer_tool(const Again& again, std::vector<Measurement>& list) {
             target.tool_S_mm->z() -= lower_mm;
             any = true;
         }
-    if (!any || logs_axes(again.table) ||
-        !(has(again.table, records::Device::linear) || has(again.table, records::Device::point)))
-        return;
+    if (!any) return;
     Measurement m = repeat(again, "longer_tool",
                            fmt::format("take {} again with the target {:.0f} mm further from the "
                                        "spindle nose (in the setup a target of its own)",
@@ -181,7 +183,6 @@ void add_longer_tool(const Again& again, std::vector<Measurement>& list) {
 
 /// Every reading twice, after a short run-up from below and from above.
 void add_both_sides(const Again& again, std::vector<Measurement>& list) {
-    if (logs_axes(again.table)) return;
     const auto moving = moving_axes(again.table);
     records::ReadingTable table = again.table;
     table.rows.clear();
@@ -198,17 +199,15 @@ void add_both_sides(const Again& again, std::vector<Measurement>& list) {
             table.rows.push_back(row);
         }
     }
-    Measurement m = repeat(again, "both_sides",
-                           fmt::format("take {} again, every place from below and from above",
-                                       readings_of(again.table)),
-                           std::move(table));
-    list.push_back(std::move(m));
+    list.push_back(repeat(again, "both_sides",
+                          fmt::format("take {} again, every place from below and from above",
+                                      readings_of(again.table)),
+                          std::move(table)));
 }
 
 /// One place more between neighbours of a test, at an uneven part so that it shows aliases.
 void add_denser(const Again& again, std::vector<Measurement>& list) {
     constexpr double part = 0.382;
-    if (logs_axes(again.table)) return;
     records::ReadingTable table = again.table;
     table.rows.clear();
     const records::Reading* last = nullptr;
@@ -226,29 +225,25 @@ void add_denser(const Again& again, std::vector<Measurement>& list) {
         table.rows.push_back(row);
         last = &row;
     }
-    Measurement m = repeat(again, "denser",
-                           fmt::format("take {} again, with a place more between each two, not in "
-                                       "the middle",
-                                       readings_of(again.table)),
-                           std::move(table));
-    list.push_back(std::move(m));
+    list.push_back(repeat(again, "denser",
+                          fmt::format("take {} again, with a place more between each two, not in "
+                                      "the middle",
+                                      readings_of(again.table)),
+                          std::move(table)));
 }
 
 void add_reversed(const Again& again, std::vector<Measurement>& list) {
-    if (logs_axes(again.table)) return;
     records::ReadingTable table = again.table;
     std::reverse(table.rows.begin(), table.rows.end());
     const double end = table.rows.front().time_s;
     for (records::Reading& row : table.rows) row.time_s = end - row.time_s;
-    Measurement m = repeat(again, "reversed",
-                           fmt::format("take {} again in reverse order", readings_of(again.table)),
-                           std::move(table));
-    list.push_back(std::move(m));
+    list.push_back(repeat(again, "reversed",
+                          fmt::format("take {} again in reverse order", readings_of(again.table)),
+                          std::move(table)));
 }
 
 /// A servo log at a third and at three times the speed.
 void add_speeds(const Again& again, std::vector<Measurement>& list) {
-    if (!logs_axes(again.table)) return;
     records::ReadingTable both = again.table;
     both.rows.clear();
     double time_s = 0.0;
@@ -265,12 +260,11 @@ void add_speeds(const Again& again, std::vector<Measurement>& list) {
         }
         time_s = last + 60.0;
     }
-    Measurement m = repeat(again, "speeds",
-                           fmt::format("take {} again at a third of the speed and at three times "
-                                       "the speed",
-                                       readings_of(again.table)),
-                           std::move(both));
-    list.push_back(std::move(m));
+    list.push_back(repeat(again, "speeds",
+                          fmt::format("take {} again at a third of the speed and at three times "
+                                      "the speed",
+                                      readings_of(again.table)),
+                          std::move(both)));
 }
 
 }  // namespace
@@ -282,12 +276,15 @@ std::vector<Measurement> repeated_measurements(const setup::Setup& setup,
     if (std::none_of(again.table.rows.begin(), again.table.rows.end(),
                      [](const records::Reading& r) { return is_instrument(r.device); }))
         return list;
+    if (logs_axes(again.table)) {
+        add_speeds(again, list);
+        return list;
+    }
     add_parallel_lines(again, list);
     add_longer_tool(again, list);
     add_both_sides(again, list);
     add_denser(again, list);
     add_reversed(again, list);
-    add_speeds(again, list);
     return list;
 }
 

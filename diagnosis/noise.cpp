@@ -80,17 +80,13 @@ bool touches_again(const emulator::Replay& replay, const records::ReadingTable& 
     return again && pause_s > long_pause * shortest_s;
 }
 
-bool is_sampled_pass(records::Device device) {
-    return device == records::Device::linear || device == records::Device::angle;
-}
-
 /// Readings of a pass of a laser or autocollimator that are left out together: eight, of few
 /// readings a sixth of them, so that what is left determines an effect.
 std::size_t longest_of_pass(const emulator::Replay& replay) {
     constexpr std::size_t longest = 8, blocks = 6;
     std::size_t count = 0;
     for (std::size_t i = 0; i < replay.size(); ++i)
-        if (is_sampled_pass(replay.contact(i).device)) ++count;
+        if (reads_targets(replay.contact(i).device)) ++count;
     return std::clamp<std::size_t>(count / blocks, 1, longest);
 }
 
@@ -103,7 +99,7 @@ bool continues(const emulator::Replay& replay, const records::ReadingTable& tabl
     const records::Reading &before = table.rows[last], &row = table.rows[replay.table_row(i)];
     if (before.feature != row.feature || before.mode != row.mode || visit.size() >= most)
         return false;
-    if (is_sampled_pass(row.device)) return true;  // as long as a pass may be
+    if (reads_targets(row.device)) return true;  // as long as a pass may be
     for (const Axis axis : table.axes)
         if ((table.names.is_rotary(axis) || row.device == records::Device::point) &&
             std::abs(before.commanded[axis] - row.commanded[axis]) > same_angle_rad)
@@ -142,7 +138,7 @@ std::vector<NoiseBlock> noise_blocks(const emulator::Replay& replay,
         if (same && row.device != records::Device::ballbar && row.device != records::Device::axis) {
             const std::vector<Eigen::Index>& visit = blocks[it->second].rows;
             same = static_cast<std::size_t>(visit.back()) + 1 == i &&
-                   !(is_sampled_pass(row.device) && visit.size() >= of_pass) &&
+                   !(reads_targets(row.device) && visit.size() >= of_pass) &&
                    continues(replay, table, visit, i);
         }
         if (!same) {

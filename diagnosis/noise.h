@@ -39,6 +39,11 @@ struct NoiseModel {
     DeviceNoise& of(records::Device device);
 };
 
+/// True for a laser and an autocollimator: readings taken one by one at targets (ISO 230-2).
+constexpr bool reads_targets(records::Device device) {
+    return device == records::Device::linear || device == records::Device::angle;
+}
+
 /// Device rows that share an error: the touches (or components) of one pose, or the samples of one
 /// ballbar pass. Each device row belongs to exactly one block.
 struct NoiseBlock {

@@ -153,12 +153,6 @@ DeviceNoise estimate(const emulator::Replay& replay, records::Device device,
 /// session. What differs between sessions may be the machine, not its noise.
 using Key = std::tuple<std::size_t, int, int, int, std::vector<long>, std::vector<int>>;
 
-/// Readings of a laser, autocollimator or encoder are compared one by one, each with the last one
-/// at the same target from the same side (ISO 230-2).
-bool has_single_repeats(records::Device device) {
-    return device == records::Device::linear || device == records::Device::angle;
-}
-
 Key key_of(const emulator::Replay& replay, const records::ReadingTable& table, std::size_t i) {
     const emulator::Contact& contact = replay.contact(i);
     const AxisSample& sample = replay.sample(i);
@@ -167,7 +161,7 @@ Key key_of(const emulator::Replay& replay, const records::ReadingTable& table, s
     for (const Axis axis : table.axes) {
         place.push_back(std::lround(sample.position[axis] * 1e5));
         if (table.names.is_rotary(axis) || contact.device == records::Device::ballbar ||
-            has_single_repeats(contact.device))
+            reads_targets(contact.device))
             travel.push_back(sample.travel[index_of(axis)]);
     }
     if (contact.device != records::Device::ballbar)
@@ -184,12 +178,13 @@ Key key_of(const emulator::Replay& replay, const records::ReadingTable& table, s
             travel};
 }
 
-/// Rows that are compared as a whole: the blocks, or single readings of those used.
+/// Rows that are compared as a whole: the blocks; at targets single readings of those used, each
+/// with the last one at the same target from the same side.
 std::vector<NoiseBlock> compared_rows(const std::vector<NoiseBlock>& blocks,
                                       const std::vector<bool>& used) {
     std::vector<NoiseBlock> list;
     for (const NoiseBlock& block : blocks) {
-        if (!has_single_repeats(block.device)) {
+        if (!reads_targets(block.device)) {
             list.push_back(block);
             continue;
         }
@@ -315,7 +310,7 @@ std::map<records::Device, std::vector<Stretch>> differences_of(
 
 /// Fewer differences say no more than what is stated or usual.
 std::size_t fewest(records::Device device) {
-    return has_single_repeats(device) ? 10 : 30;
+    return reads_targets(device) ? 10 : 30;
 }
 
 }  // namespace

@@ -46,10 +46,6 @@ int scattered_fold(int block) {
     return sum % Folds::count;
 }
 
-bool visits_targets(const NoiseBlock& block) {
-    return block.device == records::Device::linear || block.device == records::Device::angle;
-}
-
 }  // namespace
 
 Folds make_folds(const std::vector<NoiseBlock>& blocks, std::size_t rows) {
@@ -70,8 +66,8 @@ Folds make_folds(const std::vector<NoiseBlock>& blocks, std::size_t rows) {
                 first + static_cast<int>(k * pieces / block.rows.size());
         for (std::size_t k = 0; k < pieces; ++k)
             folds.fold.push_back(bar ? (3 * pass + static_cast<int>(k)) % Folds::count
-                                 : visits_targets(block) ? scattered_fold(pass)
-                                                         : pass % Folds::count);
+                                 : reads_targets(block.device) ? scattered_fold(pass)
+                                                               : pass % Folds::count);
         ++pass;
     }
     // Of few poses each is left out alone: with a fifth of them missing, an effect of several

@@ -71,7 +71,7 @@ double step_of_log(const Prepared& p, bool angular) {
 bool is_step_of_log(const Prepared& p, const effects::Effect& effect,
                     const std::vector<double>& keys) {
     constexpr double alike = 2.0;
-    if (effect.kind != effects::EffectKind::control_rounding || p.replay.size() == 0 ||
+    if (effect.kind != effects::EffectKind::control_rounding ||
         p.replay.contact(0).device != records::Device::axis)
         return false;
     for (std::size_t j = 0; j < keys.size(); ++j)

@@ -153,10 +153,8 @@ bool sees_both_sides(const Prepared& p, const TableForm& table) {
 /// The targets of a laser or an autocollimator, if they were visited again; else none. Other
 /// readings have no targets, and at a place read once an error of its own is noise.
 std::vector<double> targets_of(const Prepared& p, const std::vector<double>& places) {
-    for (std::size_t i = 0; i < p.replay.size(); ++i) {
-        const records::Device device = p.replay.contact(i).device;
-        if (device != records::Device::linear && device != records::Device::angle) return {};
-    }
+    for (std::size_t i = 0; i < p.replay.size(); ++i)
+        if (!reads_targets(p.replay.contact(i).device)) return {};
     std::vector<double> targets = estimation::knots_of(places, most_targets + 1);
     const bool again = places.size() >= 2 * targets.size();
     return again && targets.size() <= most_targets ? targets : std::vector<double>{};

@@ -67,6 +67,18 @@ TEST_CASE("equal values of few digits are no copies", "[diagnosis]") {
     records::ReadingTable moved = log(5, 1e-4);
     for (records::Reading& row : moved.rows) row.commanded[Axis::X] = row.index;
     CHECK_FALSE(diagnosis::without_copies(moved));  // each at a place of its own
+    records::ReadingTable loaded = log(5, 1e-4);
+    for (records::Reading& row : loaded.rows) row.load_kg = 20.0 * (row.index % 5);
+    CHECK_FALSE(diagnosis::without_copies(loaded));  // each under a load of its own
+}
+
+TEST_CASE("nine equal readings may be chance, ten copies are not", "[diagnosis]") {
+    for (const std::size_t copies : {9, 10, 11}) {
+        records::ReadingTable table = log(2, 1e-4);
+        table.rows.resize(2 * copies);
+        INFO(copies);
+        CHECK(diagnosis::without_copies(table).has_value() == (copies >= 10));
+    }
 }
 
 }  // namespace trunnion

@@ -144,7 +144,7 @@ TEST_CASE("a table for places alone is met where the program sends the axis",
 // Half of the targets of a table that is cut are a ripple of nearly two targets.
 TEST_CASE("each of many targets may have an error of its own, which is no ripple",
           "[diagnosis][stage]") {
-    for (const std::size_t targets : {28, 36, 60}) {
+    for (const std::size_t targets : {28, 36, 60, 128}) {
         const Truth truth = rough(targets, 40 + static_cast<unsigned>(targets));
         const diagnosis::Diagnosis d = diagnosis::diagnose(stage(), laser(truth, 3, 3));
         INFO(targets);
@@ -155,6 +155,13 @@ TEST_CASE("each of many targets may have an error of its own, which is no ripple
         CHECK(d.explained > 0.8);
         CHECK(left_beside(d.setup, laser(truth, 3, 99)) < 1.25 * truth.noise_mm);
     }
+}
+
+TEST_CASE("of more than 128 targets none has an error of its own", "[diagnosis][stage]") {
+    const diagnosis::Diagnosis d = diagnosis::diagnose(stage(), laser(rough(129, 5), 2, 3));
+    INFO(said(d));
+    CHECK(d.verdict != diagnosis::Verdict::no_gap);
+    for (const diagnosis::Cause& c : d.causes) CHECK(c.points.size() <= 40);
 }
 
 TEST_CASE("one spoiled reading is set aside, and the noise is that of the others",
