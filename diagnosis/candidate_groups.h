@@ -31,6 +31,11 @@ std::optional<std::size_t> add_keyed_group(Design& design, const Prepared& prepa
                                            const Whitener& whitener, const effects::Effect& effect,
                                            std::vector<double> keys);
 
+/// Adds forms that are no textbook form of their own, as rivals only. Angles with a bow, seen
+/// through one arm, are a straightness or a scale with a bow; a straightness with a slope (by ISO
+/// 230-1 a squareness or the alignment of the instrument) is an angle that grows along the way.
+void add_unnamed_forms(Design& design, const Prepared& prepared, const Whitener& whitener);
+
 /// Adds a jump of the machine with given keys, which may be named as a rival only.
 void add_machine_jump(Design& design, const Prepared& prepared, const Whitener& whitener,
                       const effects::Effect& jump, std::vector<double> keys);

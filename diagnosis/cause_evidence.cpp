@@ -101,10 +101,10 @@ EvidenceOf evidence_of(const Searching& search, const Model& model, const Offer&
         if (count++ == rivals_tried) break;
         const ColumnGroup& group = design.group(o.group);
         const bool again = group.name == cause.name;
-        weights.add(with(rest, o), own - nats_of(design, o),
-                    again                          ? same
-                    : makes_doubtful(cause, group) ? kindred
-                                                   : other);
+        std::vector<double>& list = again ? same : makes_doubtful(cause, group) ? kindred : other;
+        const std::size_t before = list.size();
+        weights.add(with(rest, o), own - nats_of(design, o), list);
+        if (list.size() > before) list.back() -= unusual_size(design, o);
     }
     weigh_one_for_two(search, model, held, weights, other);
     for (const TwoInstead& pair : instead.pairs) {

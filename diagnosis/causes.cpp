@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/units.h"
+#include "diagnosis/rules.h"
 #include "estimation/ranked_least_squares.h"
 
 namespace trunnion::diagnosis {
@@ -46,6 +47,22 @@ std::vector<identification::FitParameter> parameters_of(const ColumnGroup& group
     return list;
 }
 
+/// True for an error along (of a rotary axis: about) the axis, which counts against + of M.
+bool counts_against(const TableForm& table, int direction) {
+    const int main = effects::main_direction(table.axis);
+    return !table.play && direction == (table.axis.rotary ? main + 3 : main) &&
+           table.axis.direction(main) < 0.0;
+}
+
+/// How far an effect of a linear axis moves it at a position, mm.
+double moved_mm(const effects::Effect& effect, const std::vector<double>& values, double at_mm) {
+    AxisSample sample;
+    sample.position[*effect.axis] = at_mm;
+    kinematics::Perturbation out;
+    effect.add(sample, {}, values, out);
+    return out.axis[*effect.axis];
+}
+
 std::vector<TablePoint> points_of(const ColumnGroup& group, const Eigen::VectorXd& own,
                                   const Eigen::MatrixXd& covariance) {
     const TableForm& table = group.table;
@@ -58,11 +75,16 @@ std::vector<TablePoint> points_of(const ColumnGroup& group, const Eigen::VectorX
         for (Eigen::Index j = 0; j < each && !table.knots.empty(); ++j) {
             const int d = table.directions[k];
             const Eigen::Index at = static_cast<Eigen::Index>(k) * each + j;
-            points.push_back(
-                {table.play ? "gap" : effects::motion_name(d, table.axis),
-                 table.knots[static_cast<std::size_t>(j)], value(at), sigma(at) * table_unit(d),
-                 table.axis.rotary ? "rad" : "mm", d < 3 ? "mm" : "rad",
-                 !table.play && !table.axis.rotary && d == effects::main_direction(table.axis)});
+            TablePoint point{table.play ? "gap" : effects::motion_name(d, table.axis),
+                             table.knots[static_cast<std::size_t>(j)],
+                             value(at),
+                             sigma(at) * table_unit(d),
+                             table.axis.rotary ? "rad" : "mm",
+                             d < 3 ? "mm" : "rad",
+                             counts_against(table, d)};
+            if (!table.play && !table.axis.rotary && d == effects::main_direction(table.axis))
+                point.too_far_mm = table.axis.direction(d) * point.value;
+            points.push_back(std::move(point));
         }
     constexpr int places = 36;  // points of a whole turn, from its harmonics
     for (std::size_t k = 0; k < table.directions.size() && table.knots.empty(); ++k)
@@ -78,7 +100,7 @@ std::vector<TablePoint> points_of(const ColumnGroup& group, const Eigen::VectorX
             const Eigen::VectorXd by = group.shape.transpose() * wave;
             points.push_back({effects::motion_name(d, table.axis), q, wave.dot(value),
                               table_unit(d) * std::sqrt(std::max(0.0, by.dot(covariance * by))),
-                              "rad", d < 3 ? "mm" : "rad", false});
+                              "rad", d < 3 ? "mm" : "rad", counts_against(table, d)});
         }
     return points;
 }
@@ -103,6 +125,24 @@ bool is_seen_in_a_form(const Design& design, const ColumnGroup& group, std::size
 }
 
 }  // namespace
+
+void add_scales(const effects::Catalogue& catalogue, std::vector<Cause>& causes) {
+    for (const Cause& scale : causes) {
+        const effects::Effect* effect = effects::find_effect(catalogue, scale.effect);
+        if (!effect || effect->kind != effects::EffectKind::scale || !scale.since.empty() ||
+            scale.probability < rules::claimed)
+            continue;
+        std::vector<double> values;
+        for (const identification::FitParameter& p : scale.parameters) values.push_back(p.value);
+        const std::string axis = scale.effect.substr(0, scale.effect.find('.'));
+        for (Cause& table : causes)
+            for (TablePoint& point : table.points) {
+                if (!point.too_far_mm || point.error.substr(2) != axis) continue;
+                *point.too_far_mm += moved_mm(*effect, values, point.at);
+                table.with = scale.effect;
+            }
+    }
+}
 
 std::vector<identification::Inseparable> unseen_of(const Design& design, std::size_t member) {
     std::vector<identification::Inseparable> groups;

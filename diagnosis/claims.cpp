@@ -41,12 +41,21 @@ double temper(const Sizes& sizes, std::size_t k, const Folds& folds) {
     return 1.0 / std::max(1.0, expected > 0.0 ? square / expected : 1.0);
 }
 
+effects::EffectKind motion_of(const ColumnGroup& group) {
+    return group.effect ? group.effect->kind : group.table.motion;
+}
+
 /// A jump of the machine stands against a move of an artefact and against a drift, which are
-/// courses of time, too: beside any other effect it is one more time that was picked to fit.
+/// courses of time, too: beside any other effect it is one more time that was picked to fit. A
+/// form without a name stands against those that it imitates.
 bool may_be_instead(const ColumnGroup& own, const ColumnGroup& other) {
-    return !other.machine_jump ||
-           (own.effect && (own.effect->kind == effects::EffectKind::artefact_moved ||
-                           own.effect->kind == effects::EffectKind::thermal_drift));
+    using enum effects::EffectKind;
+    if (!is_cause(own.kind)) return !other.machine_jump && !other.unnamed;
+    const effects::EffectKind motion = motion_of(own);
+    if (other.machine_jump) return motion == artefact_moved || motion == thermal_drift;
+    if (!other.unnamed) return true;
+    return motion_of(other) == angular ? motion == straightness || motion == scale
+                                       : motion == angular;
 }
 
 void name_rival(const Design& design, std::size_t group, Claim& claim) {
@@ -190,17 +199,20 @@ std::vector<Offer> jumps_among(const Design& design, const ColumnGroup& own,
     return jumps;
 }
 
-/// The best ripple that the positions do not resolve. It is not claimed, but it may be the truth.
-std::vector<Offer> unresolved_ripple(const Design& design, const ColumnGroup& own,
-                                     const std::vector<Offer>& instead) {
-    std::vector<Offer> ripples;
+/// The best ripple that the positions do not resolve, and the best of the forms without a name of
+/// their own. They are not claimed, but may be the truth.
+std::vector<Offer> unclaimed(const Design& design, const ColumnGroup& own,
+                             const std::vector<Offer>& instead) {
+    std::map<GroupKind, std::vector<Offer>> kinds;
     for (const Offer& o : instead) {
         const ColumnGroup& group = design.group(o.group);
-        if (design.groups()[o.group].only_rival && !group.machine_jump && group.name != own.name)
-            ripples.push_back(o);
+        if (design.groups()[o.group].only_rival && !group.machine_jump && group.name != own.name &&
+            may_be_instead(own, group))
+            kinds[group.kind].push_back(o);
     }
-    if (ripples.empty()) return {};
-    return {best_of(ripples)};
+    std::vector<Offer> best;
+    for (const auto& [kind, offers] : kinds) best.push_back(best_of(offers));
+    return best;
 }
 
 /// Offers that share the probability of a claim: those that a model may contain, and some that can
@@ -208,8 +220,8 @@ std::vector<Offer> unresolved_ripple(const Design& design, const ColumnGroup& ow
 std::vector<Offer> sharing(const Design& design, const ColumnGroup& own,
                            const std::vector<Offer>& instead, const std::vector<Offer>& others) {
     std::vector<Offer> all = jumps_among(design, own, instead, others);
-    const std::vector<Offer> ripple = unresolved_ripple(design, own, instead);
-    all.insert(all.end(), ripple.begin(), ripple.end());
+    const std::vector<Offer> unnamed = unclaimed(design, own, instead);
+    all.insert(all.end(), unnamed.begin(), unnamed.end());
     all.insert(all.end(), others.begin(), others.end());
     return all;
 }

@@ -46,6 +46,7 @@ struct ColumnGroup {
     bool is_anything = false;                 ///< a driver that follows nearly everything, too:
                                               ///< by itself it does not tell where
     bool machine_jump = false;                ///< of diagnosis/machine_jump.h
+    bool unnamed = false;                     ///< of add_unnamed_forms
     const effects::Effect* effect = nullptr;  ///< textbook, periodic
     std::vector<double> keys;                 ///< of the effect; linear parameters 0
     std::vector<std::size_t> parameters;      ///< of the effect, one for each feature

@@ -37,7 +37,10 @@ struct TablePoint {
     std::string error;  ///< ISO 230 name: "EXX"
     double at = 0.0, value = 0.0, sigma = 0.0;
     std::string at_unit, unit;  ///< mm or rad
-    bool travel = false;        ///< error of a slide along its own travel
+    bool against = false;       ///< the error counts along + of M, the axis the other way round
+    /// Of a slide along its own travel: how far beyond the command it goes, mm, with the scale of
+    /// the axis where one is claimed beside the table (Cause::with).
+    std::optional<double> too_far_mm = {};
 };
 
 struct Cause {
@@ -51,6 +54,7 @@ struct Cause {
     HeldOut heldout;
     std::string what, usual_cause, remedy;
     std::vector<TablePoint> points;  ///< of a cause in free form, else empty
+    std::string with;                ///< cause that TablePoint::too_far_mm includes: "Y.scale"
     Finite rms_sigma = 0.0;          ///< what it does to the readings, rms in their sigma
     bool holds_between = true;       ///< a free form that predicts places left out
     std::string since;               ///< a change: the session from which it holds; else empty

@@ -346,6 +346,7 @@ Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options) {
         d.causes.push_back(cause_of({f.design, f.model, f.judgement, solution, covariance}, claim));
         d.causes.back().heldout = alone(f, claim.position, draws);
     }
+    add_scales(f.prepared.catalogue, d.causes);
     d.after = held_out(f, written.blocks.before, written.blocks.after);
     widen(d.after, draws.interval_elsewhere(written.model));
     d.after.high = std::max(d.after.high.value(), fitted_shrink(f, written.model));

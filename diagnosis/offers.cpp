@@ -1,6 +1,7 @@
 #include "diagnosis/offers.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace trunnion::diagnosis {
 namespace {
@@ -23,6 +24,14 @@ std::vector<std::size_t> possible(const Design& design, const std::vector<std::s
 }
 
 }  // namespace
+
+double unusual_size(const Design& design, const Offer& offer) {
+    constexpr double usual = 2.0;  // of the typical size
+    const Design::Entry& entry = design.groups()[offer.group];
+    if (!entry.only_rival || entry.group.machine_jump || entry.group.kind != GroupKind::periodic)
+        return 0.0;
+    return std::log1p(std::pow(offer.gain.tau / usual, 2));
+}
 
 OffersBeside::OffersBeside(Design& design, const Model& model)
     : design_(design), model_(model), given_(design.equations(model.members), model.variances) {

@@ -10,6 +10,10 @@
 
 namespace trunnion::diagnosis {
 
+/// A ripple that no position resolves may have any size that its rival needs: nats by which one far
+/// beyond the usual size is less probable (Cauchy's density, assumed). 0 for other groups.
+double unusual_size(const Design& design, const Offer& offer);
+
 class OffersBeside {
   public:
     using Takes = std::function<bool(GroupKind)>;

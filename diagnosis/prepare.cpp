@@ -13,6 +13,7 @@
 #include "diagnosis/machine_jump.h"
 #include "identification/index_errors.h"
 #include "identification/resolution.h"
+#include "identification/start_pose.h"
 
 namespace trunnion::diagnosis {
 namespace {
@@ -99,7 +100,8 @@ Prepared::Prepared(const setup::Setup& setup, const records::ReadingTable& readi
 }
 
 Prepared prepare(const setup::Setup& setup, const records::ReadingTable& table) {
-    return Prepared(identification::with_index_errors(setup, table), table);
+    const setup::Setup indexed = identification::with_index_errors(setup, table);
+    return Prepared(identification::with_start_poses(indexed, table), table);
 }
 
 void free_zeros(const emulator::Replay& replay, const Eigen::VectorXd& sigma_mm,

@@ -121,6 +121,21 @@ void take_longest_period(const std::vector<double>& places, const Ripple& ripple
         if (ripple.period_of(alias) > ripple.period_of(keys[ripple.key])) keys[ripple.key] = alias;
 }
 
+/// True where one of the periods that look alike at these positions is that of a usual lead or pole
+/// pitch: a multiple of 0.5 mm or of an eighth of an inch, 2 mm or more.
+bool may_be_usual(const Prepared& prepared, const Ripple& ripple) {
+    constexpr double near = 1e-3, least_mm = 2.0, steps_mm[] = {0.5, 25.4 / 8.0};
+    std::vector<double> periods{ripple.period};
+    if (const double step = step_of(distinct(positions_of(prepared, ripple.axis))); step > 0.0)
+        periods = aliases_on(step, ripple);
+    return std::any_of(periods.begin(), periods.end(), [&](double period) {
+        return std::any_of(std::begin(steps_mm), std::end(steps_mm), [&](double step_mm) {
+            return period >= least_mm * (1.0 - near) &&
+                   std::abs(std::remainder(period, step_mm)) < near * period;
+        });
+    });
+}
+
 /// Features of the textbook effects of the same axis.
 std::vector<Eigen::Index> of_axis(const Design& design, const effects::Effect& effect) {
     std::vector<Eigen::Index> features;
@@ -175,8 +190,12 @@ void add_unresolved_ripple(Design& design, const Prepared& prepared, const White
                            const effects::Effect& effect, std::vector<double> keys) {
     const auto ripple = ripple_of(effect, keys);
     if (!ripple || distinct(positions_of(prepared, ripple->axis)).size() < least_places) return;
+    const double odd =
+        ripple->counts || may_be_usual(prepared, *ripple) ? 0.0 : rules::odd_period_prior;
     const auto added = add_keyed_group(design, prepared, whitener, effect, std::move(keys));
-    if (added) design.keep_as_rival(*added);
+    if (!added) return;
+    design.favour(*added, odd);
+    design.keep_as_rival(*added);
 }
 
 std::optional<std::size_t> add_ripple_or_other(Design& design, const Prepared& prepared,

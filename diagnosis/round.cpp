@@ -271,6 +271,7 @@ Searched search_of(const Prepared& p, const Round& round, KeySearch& keys, const
     FoldColumns rows(design, {p.folds, round.used});
     model = without_idle_members(rows, setting, std::move(model));
     add_jumps_instead(design, p, whitener, keys, model);
+    add_unnamed_forms(design, p, whitener);
     setting.refine = {};  // what it refers to ends here
     setting.go_on = {};
     return {std::move(design), std::move(setting), std::move(model)};

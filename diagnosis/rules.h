@@ -12,7 +12,11 @@ constexpr double gain_prior = -5.521460917862246;     ///< ln 0.004: a wrong gai
                                                       ///< alike (assumed)
 /// Angular errors that the readings show as positioning, straightness and squareness alone: on one
 /// line these are their names (ISO 230-1).
-constexpr double by_an_arm = -0.7;                  // ln 0.5
+constexpr double by_an_arm = -0.7;  // ln 0.5
+/// Forms that are rivals only: angles with a bow about one line, the slope of a straightness.
+constexpr double unnamed_form = -1.4;  // ln 0.25
+/// A ripple that no position resolves, of a period that no usual lead has (assumed).
+constexpr double odd_period_prior = -3.0;           // ln 0.05
 constexpr double table_prior = -3.912023005428146;  ///< ln 0.02: free form, driver
 
 // A gap is reported when both the evidence and the left-out readings support it.

@@ -24,14 +24,19 @@ struct Material {
     Eigen::MatrixXd columns;  ///< mm
 };
 
-/// Columns of the linear parameters in textbook form that move any reading; zero in the sessions
-/// `before`.
+bool is_usual(const effects::EffectParameter& parameter) {
+    return parameter.usual;
+}
+
+/// Columns of the linear parameters in textbook form (or those that `takes` accepts) that move any
+/// reading; zero in the sessions `before`.
 Material material_of(const Prepared& p, const effects::Effect& effect,
-                     const std::vector<double>& keys, const std::vector<std::string>& before = {}) {
+                     const std::vector<double>& keys, const std::vector<std::string>& before = {},
+                     const Takes& takes = is_usual) {
     Material m;
     std::vector<Eigen::VectorXd> list;
     for (std::size_t j = 0; j < effect.parameters.size(); ++j) {
-        if (effect.parameters[j].is_key() || !effect.parameters[j].usual) continue;
+        if (effect.parameters[j].is_key() || !takes(effect.parameters[j])) continue;
         Eigen::MatrixXd column =
             identification::effect_column(p.replay, p.base.gradient, {effect, keys, j});
         drop_sessions(column, p.replay, before);
@@ -156,11 +161,18 @@ double slope_of_square_mm(const Prepared& p, Axis axis) {
     return square > 0.0 ? (way * q.square()).sum() / square : 0.0;
 }
 
+/// Slope and bow of an error, in typical sizes: the bow about the mean line of the measured travel.
+Eigen::Vector2d bow_about_mean_line(const Prepared& p, const effects::Effect& effect,
+                                    std::size_t bow) {
+    const double slope = slope_of_square_mm(p, *effect.axis) / effects::reach_mm;
+    const auto& parameters = effect.parameters;
+    return {-slope * parameters[bow].typical / parameters[bow - 1].typical, 1.0};
+}
+
 /// Binds the slope in each direction to the bow, so that the bow is one about the mean line of the
 /// measured travel. ISO 230-1 takes straightness from that line; its slope is squareness.
 void take_bow_from_mean_line(const Prepared& p, ColumnGroup& group) {
     const auto& parameters = group.effect->parameters;
-    const double slope = slope_of_square_mm(p, *group.effect->axis) / effects::reach_mm;
     std::vector<Eigen::VectorXd> columns;
     const auto count = static_cast<Eigen::Index>(group.parameters.size());
     for (Eigen::Index k = 0; k < count; ++k) {
@@ -169,7 +181,7 @@ void take_bow_from_mean_line(const Prepared& p, ColumnGroup& group) {
         Eigen::VectorXd column = Eigen::VectorXd::Unit(count, k);
         // The slope of the same direction stands before it.
         if (k > 0 && group.parameters[static_cast<std::size_t>(k - 1)] == bow - 1)
-            column(k - 1) = -slope * parameters[bow].typical / parameters[bow - 1].typical;
+            column(k - 1) = bow_about_mean_line(p, *group.effect, bow)(0);
         columns.push_back(std::move(column));
     }
     group.shape.resize(count, static_cast<Eigen::Index>(columns.size()));
@@ -294,6 +306,48 @@ std::optional<ColumnGroup> keyed_group(Design& design, const Prepared& prepared,
 }
 
 }  // namespace
+
+namespace {
+
+/// Some parameters of an effect, their features added to the design; empty where none of them moves
+/// a reading.
+std::optional<ColumnGroup> one_direction(Design& design, const Prepared& prepared,
+                                         const Whitener& whitener, const effects::Effect& effect,
+                                         const Takes& takes) {
+    Material material = material_of(prepared, effect, effect.zeros(), {}, takes);
+    if (material.parameters.empty()) return std::nullopt;
+    whitener.apply(material.columns);
+    ColumnGroup group =
+        group_of(effect, effect.zeros(), material, design.add_features(material.columns), {});
+    group.log_prior = rules::effect_prior + rules::unnamed_form;
+    group.unnamed = true;
+    return group;
+}
+
+}  // namespace
+
+void add_unnamed_forms(Design& design, const Prepared& prepared, const Whitener& whitener) {
+    for (const effects::Effect& effect : prepared.catalogue) {
+        const bool angular = effect.kind == effects::EffectKind::angular;
+        if ((!angular && effect.kind != effects::EffectKind::straightness) ||
+            !offered(prepared, effect, {}))
+            continue;
+        for (const char direction : {'A', 'B', 'C', 'X', 'Y', 'Z'}) {
+            const Takes takes = [&](const effects::EffectParameter& q) {
+                return q.name[1] == direction && (angular || q.usual);
+            };
+            auto group = one_direction(design, prepared, whitener, effect, takes);
+            if (!group || group->parameters.size() < 2) continue;
+            ColumnGroup simple = *group;
+            if (angular)
+                simple.shape = bow_about_mean_line(prepared, effect, group->parameters[1]);
+            else
+                simple.shape = Eigen::Vector2d::UnitX();
+            design.keep_as_rival(design.add(std::move(simple)));
+            design.keep_as_rival(design.add(std::move(*group)));
+        }
+    }
+}
 
 void add_machine_jump(Design& design, const Prepared& prepared, const Whitener& whitener,
                       const effects::Effect& jump, std::vector<double> keys) {

@@ -109,16 +109,21 @@ double evidence_beside_zeros(Design& design, const Model& model,
     return evidence(design, model) - best;
 }
 
-/// Chance that a model explains so much of noise, for as many effects as there are.
-double chance_of(const Design& design, const Model& model, const Judgement& j, const Sizes& sizes) {
+/// Chance that a model explains so much of noise, for as many effects as there are. Noise that
+/// repeats tell is known as well as they are many.
+double chance_of(const Design& design, const Model& model, const NoiseModel& noise,
+                 const Sizes& sizes) {
     constexpr double effects_tried = 60.0;
     if (model.members.empty()) return 1.0;
     const Eigen::VectorXd y = design.projection().beside(design.data());
     double width = 0.0;
     for (const std::size_t m : model.members)
         width += static_cast<double>(design.group(m).columns());
-    const double explained = (y.squaredNorm() - sizes.remainder.squaredNorm()) / j.floor;
-    return std::min(1.0, effects_tried * estimation::chi_squared_tail(explained, width));
+    const double explained = (y.squaredNorm() - sizes.remainder.squaredNorm()) / sizes.floor;
+    const double one = noise.doubt > 0.0
+                           ? estimation::f_tail(explained / width, width, 2.0 / (noise.doubt * noise.doubt))
+                           : estimation::chi_squared_tail(explained, width);
+    return std::min(1.0, effects_tried * one);
 }
 
 /// True when there is more than noise. Without a driver the evidence must be confirmed by left-out
@@ -129,11 +134,12 @@ bool is_gap(Design& design, const Model& model, const Judgement& j, const Sizes&
     double driver = 0.0;
     for (std::size_t k = 0; k < model.members.size(); ++k)
         if (kind_of(design, model, k) == GroupKind::driver) driver += sizes.square[k];
-    if (j.evidence < rules::least_evidence) return false;
+    // The evidence weighs what a certain cause needs: that there is any may be sure without it.
+    const bool unlikely = j.repeated && j.chance < rules::plain_chance;
+    const bool confirmed = unlikely && saving.t >= rules::least_t && j.evidence > 0.0;
+    if (j.evidence < rules::least_evidence && !confirmed) return false;
     if (driver > rules::least_driver * j.floor * design.rows()) return true;
-    const bool plain =
-        j.evidence >= rules::plain_evidence || (j.repeated && j.chance < rules::plain_chance);
-    if (saving.t < rules::least_t && !plain) return false;
+    if (saving.t < rules::least_t && j.evidence < rules::plain_evidence && !unlikely) return false;
     return j.before - j.after >= rules::least_saving * j.floor;
 }
 
@@ -211,7 +217,7 @@ Judgement judged(FoldColumns& rows, const Prepared& prepared, const Model& model
     // So are more spoiled readings than an instrument has.
     const auto count = static_cast<double>(std::count(used.begin(), used.end(), false));
     const bool spoiled = count > rules::most_outliers * static_cast<double>(used.size());
-    j.chance = chance_of(design, model, j, sizes);
+    j.chance = chance_of(design, model, noise.model, sizes);
     j.repeated = noise.model.source == NoiseSource::repeats;
     j.gap = spoiled || beyond_noise || is_gap(design, model, j, sizes, saving_of(before, after));
     j.scatter = scatter_of(prepared, noise.model);

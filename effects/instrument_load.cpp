@@ -16,7 +16,7 @@ Effect sensor_gain() {
                std::span<const double> value, kinematics::Perturbation& out) {
                 const double gain = 1e-6 * value[0];
                 if (contact.device == records::Device::point)
-                    out.reading_mm += gain * contact.direction_I.dot(contact.commanded_I_mm);
+                    out.reading_mm += gain * contact.direction_I.dot(contact.turned_I_mm);
                 if (contact.device == records::Device::linear)
                     out.reading_mm +=
                         gain * contact.direction_W.dot(contact.believed_WS.translation_mm);

@@ -51,7 +51,8 @@ Effect thermal_expansion(const kinematics::Chain& chain) {
             {axis_parameter("growth_", axis, "_per_k"), "1/K", 8e-6, -1, {}, true});
     }
     effect.add = [axes = linear_axes(chain)](const AxisSample& sample, const emulator::Contact&,
-                        std::span<const double> value, kinematics::Perturbation& out) {
+                                             std::span<const double> value,
+                                             kinematics::Perturbation& out) {
         for (std::size_t j = 0; j < axes.size(); ++j)
             out.axis[axes[j]] +=
                 value[j] * (sample.temperature_c - 20.0) * sample.position[axes[j]];
@@ -60,20 +61,19 @@ Effect thermal_expansion(const kinematics::Chain& chain) {
 }
 
 Effect machine_expansion(const kinematics::Chain& chain) {
-    return {identity_of(EffectKind::machine_expansion),
-            "All linear axes stretch or shrink alike",
-            "scales and screws as one warmer or colder than 20 degrees, without a record of the "
-            "temperature",
-            "measure at 20 degrees, or record the temperature; check the instrument: one that "
-            "reads too long or too short looks the same",
-            "position + stretch_ppm 1e-6 q, all linear axes",
-            {{"stretch_ppm", "ppm", 20.0, -1, {}, true}},
-            [axes = linear_axes(chain)](const AxisSample& sample, const emulator::Contact&,
-                                        std::span<const double> value,
-                                        kinematics::Perturbation& out) {
-                for (const Axis axis : axes)
-                    out.axis[axis] += 1e-6 * value[0] * sample.position[axis];
-            }};
+    return {
+        identity_of(EffectKind::machine_expansion),
+        "All linear axes stretch or shrink alike",
+        "scales and screws as one warmer or colder than 20 degrees, without a record of the "
+        "temperature",
+        "measure at 20 degrees, or record the temperature; check the instrument: one that "
+        "reads too long or too short looks the same",
+        "position + stretch_ppm 1e-6 q, all linear axes",
+        {{"stretch_ppm", "ppm", 20.0, -1, {}, true}},
+        [axes = linear_axes(chain)](const AxisSample& sample, const emulator::Contact&,
+                                    std::span<const double> value, kinematics::Perturbation& out) {
+            for (const Axis axis : axes) out.axis[axis] += 1e-6 * value[0] * sample.position[axis];
+        }};
 }
 
 }  // namespace trunnion::effects

@@ -18,9 +18,9 @@ struct Contact {
                                             ///< vector
     Vector3 direction_W = Vector3::Zero();  ///< the same seen from the table
     int instrument = -1;                    ///< point row: index in Setup::instruments, -1 for none
-    Vector3 direction_I = Vector3::Zero(), commanded_I_mm = Vector3::Zero();  ///< point row, in the
-                                                                              ///< instrument's
-                                                                              ///< frame
+    /// Point row, in the instrument's frame; `turned` by the pose error of the setup.
+    Vector3 direction_I = Vector3::Zero(), commanded_I_mm = Vector3::Zero();
+    Vector3 turned_I_mm = Vector3::Zero();
     Pose believed_WS;            ///< linear or angle row: pose of the tool in the declared control
     int zero = -1;               ///< such a row: index of its test in Replay::zeros
     Axis axis = Axis::X;         ///< axis row: the axis

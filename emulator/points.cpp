@@ -66,7 +66,9 @@ void aim_at_point(const setup::Setup& setup, const records::Reading& row, Contac
     contact.direction_I = row.direction_M;
     contact.commanded_I_mm =
         pose_IM * seen_mm(target, place_mm(setup, target), believed, instrument);
-    contact.direction_M = pose_IM.rotation.transpose() * row.direction_M;
+    const Matrix3 turn = rotation_of(instrument.pose_error.tilt_rad);
+    contact.turned_I_mm = turn * contact.commanded_I_mm;
+    contact.direction_M = pose_IM.rotation.transpose() * (turn.transpose() * row.direction_M);
     if (instrument.sees_table)
         contact.direction_M = believed.pose_MW.rotation * contact.direction_M;
 }

@@ -10,7 +10,9 @@ namespace trunnion::emulator {
 double point_mm(const InstrumentView& view);
 
 /// Fills instrument, direction and commanded position of the contact of a point row. The commanded
-/// position is that of the target on the error-free machine where the declared control believes it.
+/// position is that of the target on the error-free machine where the declared control believes it,
+/// seen from the declared pose of the instrument; the direction in M follows the pose error of the
+/// setup, too.
 /// Throws InputError without position when the row names no instrument of the setup, or when it
 /// names none and there are several.
 void aim_at_point(const setup::Setup& setup, const records::Reading& row, Contact& contact);

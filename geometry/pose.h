@@ -43,6 +43,18 @@ inline Matrix3 rotation_of(const Vector3& tilt_rad) {
            k * (tilt_rad * tilt_rad.transpose() - square * Matrix3::Identity());
 }
 
+/// How a rotation vector turns further when its components grow (left Jacobian of SO(3)):
+/// exp([tilt + d]x) = exp([turn_by(tilt) d]x) exp([tilt]x) to first order in d.
+inline Matrix3 turn_by(const Vector3& tilt_rad) {
+    const double square = tilt_rad.squaredNorm(), angle = std::sqrt(square);
+    const bool small = square < 1e-4;
+    const double k = small ? 0.5 - square / 24.0 : (1.0 - std::cos(angle)) / square;
+    const double m =
+        small ? 1.0 / 6.0 - square / 120.0 : (angle - std::sin(angle)) / (square * angle);
+    const Matrix3 x = skew(tilt_rad);
+    return Matrix3::Identity() + k * x + m * x * x;
+}
+
 /// A rigid transform. `pose_AB` is frame B seen from frame A: p_AQ = pose_AB * p_BQ, and pose_AC =
 /// pose_AB * pose_BC.
 struct Pose {

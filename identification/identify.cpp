@@ -13,6 +13,7 @@
 #include "identification/keys.h"
 #include "identification/needed_terms.h"
 #include "identification/set_up_words.h"
+#include "identification/start_pose.h"
 #include "identification/unknown_sides.h"
 #include "identification/unknowns.h"
 
@@ -251,7 +252,7 @@ void describe_fit(const records::ReadingTable& table, const BaseModel& base,
 
 Identification identify(const setup::Setup& given, const records::ReadingTable& table,
                         std::vector<std::string> effects, const std::function<bool()>& go_on) {
-    const setup::Setup setup = with_index_errors(given, table);
+    const setup::Setup setup = with_start_poses(with_index_errors(given, table), table);
     effects = fitted_effects(setup, std::move(effects));
     emulator::Replay replay(setup, table);
     if (replay.size() < 2)

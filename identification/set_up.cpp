@@ -77,13 +77,13 @@ double artefact_derivative(const SetUpQuantity& quantity, const emulator::Contac
     return (on_tool ? gradient.tip_shift_mm : gradient.work_shift_mm)(quantity.component);
 }
 
-/// First order in the pose: p' = p + shift + tilt x p + scale p.
-double instrument_derivative(const SetUpQuantity& quantity, const emulator::Contact& contact) {
-    if (contact.instrument != quantity.index || contact.device != records::Device::point)
-        return 0.0;
-    const Vector3 &p = contact.commanded_I_mm, &along = contact.direction_I;
+/// First order about the pose error `at` of the setup: p' = shift + (1 + scale) exp([tilt]x) p.
+double instrument_derivative(const SetUpQuantity& quantity, const emulator::Contact& contact,
+                             const SmallMotion& at) {
+    const Vector3 &p = contact.turned_I_mm, &along = contact.direction_I;
     if (quantity.component < 3) return along(quantity.component);
-    if (quantity.component < 6) return p.cross(along)(quantity.component - 3);
+    if (quantity.component < 6)
+        return p.cross(along).dot(turn_by(at.tilt_rad).col(quantity.component - 3));
     return along.dot(p);
 }
 
@@ -222,7 +222,12 @@ double set_up_derivative(const SetUpQuantity& q, const emulator::Replay& replay,
     switch (q.kind) {
         case Kind::artefact: return artefact_derivative(q, contact, gradient, false);
         case Kind::target_on_tool: return artefact_derivative(q, contact, gradient, true);
-        case Kind::instrument: return instrument_derivative(q, contact);
+        case Kind::instrument:
+            if (contact.instrument != q.index) return 0.0;
+            return instrument_derivative(q, contact,
+                                         replay.setup_of(replay.session(i))
+                                             .instruments[static_cast<std::size_t>(q.index)]
+                                             .pose_error);
         case Kind::zero: return contact.zero == q.index ? 1.0 : 0.0;
         case Kind::encoder: return is_read_by(q, contact) ? 1.0 : 0.0;
         case Kind::cup: return bar ? gradient.tip_shift_mm(q.component) : 0.0;

@@ -46,11 +46,13 @@ Json json_of(const diagnosis::Cause& cause) {
         json["between_places"] = cause.holds_between;
         json["points"] = Json::array();
         for (const diagnosis::TablePoint& p : cause.points) json["points"].push_back(json_of(p));
-        if (const auto data = pitch_error_data(cause))
+        if (const auto data = pitch_error_data(cause)) {
             json["pitch_error"] = {{"first_mm", data->first_mm},
                                    {"interval_mm", data->interval_mm},
                                    {"unit_mm", data->unit_mm},
                                    {"value", data->value}};
+            if (!cause.with.empty()) json["pitch_error"]["includes"] = cause.with;
+        }
     }
     return json;
 }

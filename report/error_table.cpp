@@ -42,19 +42,28 @@ double small_size(const TablePoint& p) {
 }
 
 /// Linear interpolation between two points; beyond the curve the nearest end.
-double value_at(const std::vector<TablePoint>& curve, double at) {
+double too_far_at(const std::vector<TablePoint>& curve, double at) {
     const auto after =
         std::find_if(curve.begin(), curve.end(), [&](const TablePoint& p) { return p.at >= at; });
-    if (after == curve.begin()) return curve.front().value;
-    if (after == curve.end()) return curve.back().value;
+    if (after == curve.begin()) return *curve.front().too_far_mm;
+    if (after == curve.end()) return *curve.back().too_far_mm;
     const TablePoint& before = *std::prev(after);
     const double part = (at - before.at) / (after->at - before.at);
-    return before.value + part * (after->value - before.value);
+    return *before.too_far_mm + part * (*after->too_far_mm - *before.too_far_mm);
+}
+
+/// The sense of an error that counts against its axis.
+std::string against_words(const TablePoint& p) {
+    if (!p.against) return {};
+    const bool turn = p.unit == "rad";
+    const char direction = turn ? static_cast<char>(p.error[1] - 'A' + 'X') : p.error[1];
+    return fmt::format(" ({} +{} of M: the axis counts the other way)", turn ? "about" : "along",
+                       direction);
 }
 
 /// A positioning error of a linear axis.
 bool has_pitch(const std::vector<TablePoint>& curve) {
-    return curve.front().travel && curve.size() > 1;
+    return curve.front().too_far_mm && curve.size() > 1;
 }
 
 }  // namespace
@@ -69,7 +78,7 @@ std::optional<PitchErrorData> pitch_error_data(const diagnosis::Cause& cause, do
         long sum = 0;
         for (std::size_t k = 1; k < curve.size(); ++k) {
             const double at = data.first_mm + data.interval_mm * static_cast<double>(k);
-            const double whole = -(value_at(curve, at) - curve.front().value) / unit_mm;
+            const double whole = -(too_far_at(curve, at) - *curve.front().too_far_mm) / unit_mm;
             const long next = std::lround(whole);
             data.value.push_back(static_cast<int>(next - sum));
             sum = next;
@@ -82,8 +91,9 @@ std::optional<PitchErrorData> pitch_error_data(const diagnosis::Cause& cause, do
 std::string error_table(const diagnosis::Cause& cause) {
     std::string text;
     for (const std::vector<TablePoint>& curve : by_error(cause)) {
-        text += fmt::format("  {}: at {}, error {}, sigma\n", curve.front().error,
-                            place_unit(curve.front()), small_unit(curve.front()));
+        text += fmt::format("  {}{}: at {}, error {}, sigma\n", curve.front().error,
+                            against_words(curve.front()), place_unit(curve.front()),
+                            small_unit(curve.front()));
         for (const TablePoint& p : curve) {
             const Rounded shown = rounded(small_size(p) * p.value, small_size(p) * p.sigma);
             text +=
@@ -98,9 +108,11 @@ std::string error_table(const diagnosis::Cause& cause) {
     const auto data = pitch_error_data(cause);
     if (!data) return text;
     text += fmt::format(
-        "  pitch error data, from {:.4f} mm every {:.4f} mm, in {:.4f} mm (incremental; assumed):\n"
+        "  pitch error data{}, from {:.4f} mm every {:.4f} mm, in {:.4f} mm (incremental;\n"
+        "  assumed):\n"
         "  {}\n",
-        data->first_mm, data->interval_mm, data->unit_mm, fmt::join(data->value, " "));
+        cause.with.empty() ? "" : " (" + cause.with + " included)", data->first_mm,
+        data->interval_mm, data->unit_mm, fmt::join(data->value, " "));
     return text;
 }
 

@@ -12,7 +12,9 @@ diagnosis::Cause waved(bool travel) {
     cause.effect = "X.positioning";
     for (int k = 0; k <= 20; ++k) {
         const double at = -200.0 + 20.0 * k;
-        cause.points.push_back({"EXX", at, 0.006 * std::sin(at / 40.0), 2e-4, "mm", "mm", travel});
+        const double error_mm = 0.006 * std::sin(at / 40.0);
+        cause.points.push_back({"EXX", at, error_mm, 2e-4, "mm", "mm"});
+        if (travel) cause.points.back().too_far_mm = error_mm;
     }
     return cause;
 }

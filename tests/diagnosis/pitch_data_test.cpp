@@ -1,0 +1,112 @@
+// Pitch error data as printed, typed into a control and measured again: the error is gone, whatever
+// carries the axis and whatever else of its scale was found beside the table.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "diagnosis/diagnosis.h"
+#include "report/error_table.h"
+#include "tests/support/campaign.h"
+#include "tests/support/said.h"
+
+namespace trunnion {
+namespace {
+
+constexpr double length_mm = 300.0;
+
+setup::Setup mill(const std::string& chain, const std::string& direction) {
+    std::vector<std::string> notes;
+    return setup::parse_setup("[machine]\nname = \"m\"\nchain = \"" + chain +
+                                  "\"\n[machine.axis.Y]\ndirection = " + direction +
+                                  "\n[[artefact]]\nname = \"R1\"\nkind = \"target\"\n"
+                                  "tool_mm = [0, 0, 0]\n[model]\nmodelled = []\n"
+                                  "noise_um = { linear = 0.2 }\n",
+                              "m.toml", notes);
+}
+
+/// How far the axis goes too far, mm, in its own sense.
+double error_mm(double y_mm, double ppm) {
+    const double turn = 2.0 * pi * y_mm / length_mm;
+    return 1e-6 * ppm * y_mm + 6e-3 * std::sin(0.5 * turn) - 3e-3 * std::sin(turn + 1.0);
+}
+
+/// What a laser along Y reads, of a control that adds `added_mm` to the command, from its first
+/// place on.
+template <typename Added>
+records::ReadingTable read(double ppm, Added added_mm, std::uint64_t seed) {
+    SeededNoise noise(seed);
+    records::ReadingTable table;
+    table.path = "laser.csv";
+    table.axes = {Axis::X, Axis::Y, Axis::Z};
+    table.side_before.fill(1);
+    double zero_mm = 0.0;
+    for (int pass = 0; pass < 6; ++pass)
+        for (int k = 0; k <= 30; ++k) {
+            records::Reading row;
+            const double y_mm = 10.0 * (pass % 2 ? 30 - k : k), sent_mm = y_mm + added_mm(y_mm);
+            row.index = static_cast<int>(table.rows.size());
+            row.time_s = 10.0 * row.index;
+            row.commanded[Axis::Y] = y_mm;
+            row.test = "Y";
+            row.device = records::Device::linear;
+            row.feature = "R1";
+            const double too_far_mm = sent_mm + error_mm(sent_mm, ppm) - y_mm;
+            if (table.rows.empty()) zero_mm = too_far_mm;
+            row.value_mm = too_far_mm - zero_mm + 2e-4 * noise.normal();
+            table.rows.push_back(row);
+        }
+    return table;
+}
+
+/// The laser's + direction is that in which the tool moves from the work when Y counts up.
+records::ReadingTable along(records::ReadingTable table, double direction) {
+    for (records::Reading& row : table.rows) row.direction_M = Vector3(0.0, direction, 0.0);
+    return table;
+}
+
+double rms_um(const records::ReadingTable& table) {
+    double sum = 0.0, square = 0.0;
+    for (const records::Reading& row : table.rows) {
+        sum += 1e3 * *row.value_mm;
+        square += 1e6 * *row.value_mm * *row.value_mm;
+    }
+    const auto n = static_cast<double>(table.rows.size());
+    return std::sqrt(square / n - sum * sum / (n * n));
+}
+
+}  // namespace
+
+TEST_CASE("pitch error data typed as printed take the error of the axis away",
+          "[diagnosis][pitch_data]") {
+    struct Build {
+        const char *chain, *direction;
+        double tool;  ///< of + Y, in M, of the tool against the work
+    };
+    for (const Build& build :
+         {Build{"w b X Y Z t", "[0, 1, 0]", 1.0}, Build{"w b X Y Z t", "[0, -1, 0]", -1.0},
+          Build{"w Y b X Z t", "[0, -1, 0]", 1.0}, Build{"w Y b X Z t", "[0, 1, 0]", -1.0}})
+        for (const double ppm : {0.0, 80.0}) {
+            const records::ReadingTable before = read(
+                ppm, [](double) { return 0.0; }, 3);
+            diagnosis::DiagnosisOptions options;
+            options.plan_next = false;
+            const diagnosis::Diagnosis d = diagnosis::diagnose(mill(build.chain, build.direction),
+                                                               along(before, build.tool), options);
+            INFO(build.chain << ' ' << build.direction << ' ' << ppm << " ppm\n" << said(d));
+            std::optional<report::PitchErrorData> data;
+            for (const diagnosis::Cause& cause : d.causes)
+                if (!data) data = report::pitch_error_data(cause);
+            REQUIRE(data);
+            const auto typed = [&](double y_mm) {
+                const double place = (y_mm - data->first_mm) / data->interval_mm;
+                double sum = 0.0;
+                for (std::size_t k = 0; k < data->value.size(); ++k)
+                    sum += data->value[k] * std::clamp(place - static_cast<double>(k), 0.0, 1.0);
+                return data->unit_mm * sum;
+            };
+            CHECK(rms_um(before) > 3.0);
+            // A twentieth of the gap is a scale that is listed, not claimed, where ppm is 0.
+            CHECK(rms_um(read(ppm, typed, 4)) < (ppm > 0.0 ? 0.5 : 1.2));
+        }
+}
+
+}  // namespace trunnion
