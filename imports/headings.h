@@ -15,9 +15,8 @@ namespace trunnion::imports {
 std::vector<TextTable::Line> headings_above(const std::vector<TextTable::Line>& lines,
                                             std::size_t begin, std::size_t at);
 
-/// True if a heading between `told` and the line `before` ends the section that `told` begins: one
-/// marked by # of its rank or above; any marked one if `told` has no mark. Comment lines that
-/// follow one another are one heading.
+/// True if a heading between `told` and the line `before` ends the section that `told` begins: both
+/// marked by #, of its rank or above. Comment lines that follow one another are one heading.
 bool section_ends(const std::vector<TextTable::Line>& lines, const TextTable::Line& told,
                   int before);
 
