@@ -82,6 +82,17 @@ std::string rivalled(const diagnosis::Diagnosis& d) {
     return "";
 }
 
+/// "; for the rest these readings cannot tell X.scale from its rivals", where no claimed cause has
+/// any, but another one.
+std::string open_rest(const diagnosis::Diagnosis& d) {
+    if (claimed_causes(d).empty() || !rivalled(d).empty()) return "";
+    for (const diagnosis::Cause& cause : d.causes)
+        if (cause.known && !cause.rivals.empty())
+            return "; for the rest these readings cannot tell " + cause_name(d, cause) +
+                   " from its rivals";
+    return "";
+}
+
 /// "EXX, EYX": the errors of its table.
 std::string errors_of(const diagnosis::Cause& cause) {
     std::vector<std::string> names;
@@ -139,7 +150,7 @@ std::string explained_words(const diagnosis::Diagnosis& d) {
     const char* begin = causes.size() == 1 ? "The cause is " : "The causes are ";
     return begin + claimed_words(d) +
            (of_rivals.empty()
-                ? "."
+                ? open_rest(d) + "."
                 : "; these readings cannot tell " + of_rivals + " from its rivals, see below.");
 }
 
@@ -261,7 +272,8 @@ std::string verdict_sentence(const diagnosis::Diagnosis& d) {
                     "The gap is explained{}, {}, but these readings cannot tell {} from its "
                     "rivals: {}.",
                     where, by_words(d), of_rivals, size);
-            [[fallthrough]];
+            return fmt::format("The gap is explained{}, {}{}: {}.", where, by_words(d),
+                               open_rest(d), size);
         case diagnosis::Verdict::explained:
             return fmt::format("The gap is explained{}, {}: {}.", where, by_words(d), size);
         case diagnosis::Verdict::partly_explained:

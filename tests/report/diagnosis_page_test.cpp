@@ -127,12 +127,18 @@ TEST_CASE("the page shows each probability, and what is not claimed explains not
                                           Catch::Contains(listed) &&
                                           !Catch::Contains("J3.axial (21 %"));
     }
+    d.causes[1].rivals = {"J3.zero"};
+    d.verdict = diagnosis::Verdict::ambiguous;
+    const char* rest = "; for the rest these readings cannot tell J3.axial from its rivals";
+    CHECK_THAT(report::verdict_sentence(d), Catch::Contains("by C.backlash" + std::string(rest)));
+    CHECK_THAT(report::answer(d), Catch::Contains(rest));
     const std::string html = report::diagnosis_page(d, "r.csv").body_html;
     CHECK_THAT(html, Catch::Contains("<th>Probability</th>") && Catch::Contains("<td>0.60</td>") &&
                          Catch::Contains("<td>0.11<br><span class=\"note\">not claimed") &&
                          Catch::Contains("Probability 0.11, not claimed.") &&
                          Catch::Contains("21 %, not claimed"));
     d.causes.erase(d.causes.begin());
+    d.causes[0].rivals.clear();
     d.verdict = diagnosis::Verdict::unexplained;
     CHECK_THAT(report::answer(d), Catch::Contains("No known effect is claimed") &&
                                       Catch::Contains(listed) && !Catch::Contains("looks like"));
