@@ -283,7 +283,7 @@ std::string small_print(const diagnosis::Diagnosis& d) {
 std::string causes_section(const diagnosis::Diagnosis& d) {
     if (d.causes.empty() || is_only_spoiled(d) || d.only_scatter) return {};
     return section_html("Which effect",
-                        figure_html(share_bars(d), "Part of the gap that is due to each cause") +
+                        figure_html(share_bars(d), "Part of the gap that each takes in the fit") +
                             cause_table(d)) +
            section_html(
                "How far the gap shrinks",

@@ -53,6 +53,11 @@ bool is_rather_a_rival(const diagnosis::Diagnosis& d) {
            d.causes.front().probability < improbable;
 }
 
+/// True where nothing is claimed, but the first cause has rivals.
+bool is_one_of_rivals(const diagnosis::Diagnosis& d) {
+    return !d.causes.empty() && !d.causes.front().rivals.empty() && !is_claimed(d.causes.front());
+}
+
 std::string with_probability(const diagnosis::Diagnosis& d, const diagnosis::Cause& cause) {
     return cause_name(d, cause) + " (probability " + probability_words(cause.probability) + ")";
 }
@@ -141,10 +146,13 @@ std::string unclaimed_words(const diagnosis::Diagnosis& d) {
 /// The answer where the gap is explained.
 std::string explained_words(const diagnosis::Diagnosis& d) {
     const Causes causes = claimed_causes(d);
-    if (causes.empty() && is_rather_a_rival(d))
-        return "The cause is hardly " + with_probability(d, d.causes.front()) +
-               ", rather one of its rivals (" +
-               fmt::format("{}", fmt::join(d.causes.front().rivals, ", ")) + ").";
+    if (causes.empty() && is_one_of_rivals(d)) {
+        const bool hardly = is_rather_a_rival(d);
+        return fmt::format("{}{}, {}one of its rivals ({}).",
+                           hardly ? "The cause is hardly " : "Its cause is uncertain: ",
+                           with_probability(d, d.causes.front()), hardly ? "rather " : "or ",
+                           fmt::join(d.causes.front().rivals, ", "));
+    }
     if (causes.empty()) return "Its cause is uncertain: perhaps " + likeliest(d) + ".";
     const std::string of_rivals = rivalled(d);
     const char* begin = causes.size() == 1 ? "The cause is " : "The causes are ";
@@ -262,11 +270,13 @@ std::string verdict_sentence(const diagnosis::Diagnosis& d) {
                 return fmt::format(
                     "The gap is explained{}, rather by a rival of {} than by it: {}.", where,
                     cause_name(d, d.causes.front()), size);
-            if (!of_rivals.empty() && of_rivals == cause_name(d, d.causes.front()))
+            if (is_one_of_rivals(d) ||
+                (!of_rivals.empty() && of_rivals == cause_name(d, d.causes.front())))
                 return fmt::format(
                     "The gap is explained{}, but these readings cannot tell {} from its rivals: "
                     "{}.",
-                    where, of_rivals, size);
+                    where, is_one_of_rivals(d) ? with_probability(d, d.causes.front()) : of_rivals,
+                    size);
             if (!of_rivals.empty())
                 return fmt::format(
                     "The gap is explained{}, {}, but these readings cannot tell {} from its "

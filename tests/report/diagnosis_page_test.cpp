@@ -152,6 +152,16 @@ TEST_CASE("the page shows each probability, and what is not claimed explains not
     }
 }
 
+TEST_CASE("where nothing is claimed, a cause and its rivals are alternatives") {
+    diagnosis::Diagnosis d = one_cause();
+    d.causes[0].probability = 0.4;
+    CHECK_THAT(report::verdict_sentence(d),
+               Catch::Contains("cannot tell C.backlash (probability 0.40) from its rivals"));
+    CHECK_THAT(
+        report::answer(d),
+        Catch::Contains("uncertain: C.backlash (probability 0.40), or one of its rivals (C"));
+}
+
 TEST_CASE("what is a cause or a rival is not said to be unseen") {
     diagnosis::Diagnosis d = one_cause();
     d.unseen = {"C.backlash", "C.zero & co", "X.scale"};
