@@ -8,7 +8,8 @@ namespace trunnion::diagnosis::rules {
 // Log prior probabilities of being present.
 constexpr double effect_prior = -3.2188758248682006;  ///< ln 0.04: a catalogue effect
 constexpr double gain_prior = -5.521460917862246;     ///< ln 0.004: a wrong gain of the instrument,
-                                                      ///< which is calibrated (assumed)
+                                                      ///< which is calibrated, or of all scales
+                                                      ///< alike (assumed)
 /// Angular errors that the readings show as positioning, straightness and squareness alone: on one
 /// line these are their names (ISO 230-1).
 constexpr double by_an_arm = -0.7;                  // ln 0.5

@@ -116,9 +116,31 @@ struct EffectColumns {
     Eigen::Index first;
 };
 
+/// Number of linear axes that the readings were taken along.
+std::ptrdiff_t moving_linear_axes(const Prepared& p) {
+    const auto moves = [&](const kinematics::AxisGeometry& axis) {
+        const double first = p.replay.sample(0).position[axis.axis];
+        for (std::size_t i = 1; i < p.replay.size(); ++i)
+            if (p.replay.sample(i).position[axis.axis] != first) return !axis.rotary;
+        return false;
+    };
+    const auto axes = p.base.setup.machine.chain.axes();
+    return std::count_if(axes.begin(), axes.end(), moves);
+}
+
+/// Log prior probability that a textbook form is present.
+double prior_of(const effects::Effect& effect) {
+    const bool of_scales = effect.kind == effects::EffectKind::sensor_gain ||
+                           effect.kind == effects::EffectKind::machine_expansion;
+    return of_scales ? rules::gain_prior : rules::effect_prior;
+}
+
 /// A change may concern an effect that the simulation already contains.
 bool offered(const Prepared& p, const effects::Effect& effect, const Since& since) {
     if (effect.parameters.empty() || has_keys(effect)) return false;
+    // Of one axis that moves, the stretch is its scale.
+    if (effect.kind == effects::EffectKind::machine_expansion && moving_linear_axes(p) < 2)
+        return false;
     return !since.before.empty() || !modelled(p, effect);
 }
 
@@ -226,14 +248,12 @@ Eigen::Index add_effects(Design& design, const Prepared& prepared, const Whitene
         white.middleCols(r.first, r.material.columns.cols()) = r.material.columns;
     whitener.apply(white);
     const Eigen::Index first = design.add_features(white);
-    double prior = rules::effect_prior;
+    double sessions = 0.0;
     if (!since.before.empty())
-        prior -= std::log(static_cast<double>(prepared.replay.sessions().size() - 1));
+        sessions = std::log(static_cast<double>(prepared.replay.sessions().size() - 1));
     for (EffectColumns& r : list) {
         r.first += first;
-        const bool gain = r.effect->kind == effects::EffectKind::sensor_gain;
-        add_forms(design, prepared, r, since,
-                  gain ? prior - rules::effect_prior + rules::gain_prior : prior);
+        add_forms(design, prepared, r, since, prior_of(*r.effect) - sessions);
     }
     return all;
 }

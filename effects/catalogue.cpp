@@ -138,6 +138,7 @@ Catalogue make_catalogue(const setup::Setup& setup, const DataExtent& extent) {
     if (basic) list.push_back(control_chord(chain));
     list.push_back(clamp_shift(chain));
     list.push_back(sensor_gain());
+    list.push_back(machine_expansion(chain));
     if (std::any_of(chain.tool.begin(), chain.tool.end(),
                     [](const kinematics::AxisGeometry& axis) { return axis.rotary; })) {
         const CarriedTool tool = carried_tool(setup);

@@ -25,6 +25,7 @@ const char* word_of(EffectKind kind) {
         case EffectKind::servo_contour: return "servo.contour";
         case EffectKind::thermal_drift: return "thermal.drift";
         case EffectKind::thermal_expansion: return "thermal.expansion";
+        case EffectKind::machine_expansion: return "machine.expansion";
         case EffectKind::gravity_sag: return "gravity.sag";
         case EffectKind::gravity_tool: return "gravity.tool";
         case EffectKind::chain_collimation: return "chain.collimation";

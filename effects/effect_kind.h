@@ -33,6 +33,7 @@ enum class EffectKind : unsigned char {
     servo_contour,
     thermal_drift,
     thermal_expansion,
+    machine_expansion,
     gravity_sag,
     gravity_tool,
     chain_collimation,

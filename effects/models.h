@@ -42,6 +42,7 @@ Effect servo_mismatch(const kinematics::Chain& chain);
 Effect servo_contour(const kinematics::Chain& chain);
 Effect thermal_drift(const DataExtent& extent);
 Effect thermal_expansion(const kinematics::Chain& chain);
+Effect machine_expansion(const kinematics::Chain& chain);
 Effect gravity_sag(const kinematics::AxisGeometry& tilting);
 Effect probe_pretravel();
 Effect probe_radius();

@@ -1,4 +1,4 @@
-// Thermal effects: drift of the spindle with time, expansion of the scales with temperature.
+// Thermal effects: drift of the spindle with time, expansion of the scales.
 #include <algorithm>
 #include <cmath>
 
@@ -26,6 +26,17 @@ Effect thermal_drift(const DataExtent& extent) {
     return effect;
 }
 
+namespace {
+
+std::vector<Axis> linear_axes(const kinematics::Chain& chain) {
+    std::vector<Axis> axes;
+    for (const kinematics::AxisGeometry& axis : chain.axes())
+        if (!axis.rotary) axes.push_back(axis.axis);
+    return axes;
+}
+
+}  // namespace
+
 Effect thermal_expansion(const kinematics::Chain& chain) {
     Effect effect{identity_of(EffectKind::thermal_expansion),
                   "Scales and screws grow with temperature: positions stretch away from zero",
@@ -34,20 +45,35 @@ Effect thermal_expansion(const kinematics::Chain& chain) {
                   "position + growth_per_k * (temperature - 20) * q",
                   {},
                   {}};
-    std::vector<Axis> axes;
     for (const kinematics::AxisGeometry& axis : chain.axes()) {
         if (axis.rotary) continue;
-        axes.push_back(axis.axis);
         effect.parameters.push_back(
             {axis_parameter("growth_", axis, "_per_k"), "1/K", 8e-6, -1, {}, true});
     }
-    effect.add = [axes](const AxisSample& sample, const emulator::Contact&,
+    effect.add = [axes = linear_axes(chain)](const AxisSample& sample, const emulator::Contact&,
                         std::span<const double> value, kinematics::Perturbation& out) {
         for (std::size_t j = 0; j < axes.size(); ++j)
             out.axis[axes[j]] +=
                 value[j] * (sample.temperature_c - 20.0) * sample.position[axes[j]];
     };
     return effect;
+}
+
+Effect machine_expansion(const kinematics::Chain& chain) {
+    return {identity_of(EffectKind::machine_expansion),
+            "All linear axes stretch or shrink alike",
+            "scales and screws as one warmer or colder than 20 degrees, without a record of the "
+            "temperature",
+            "measure at 20 degrees, or record the temperature; check the instrument: one that "
+            "reads too long or too short looks the same",
+            "position + stretch_ppm 1e-6 q, all linear axes",
+            {{"stretch_ppm", "ppm", 20.0, -1, {}, true}},
+            [axes = linear_axes(chain)](const AxisSample& sample, const emulator::Contact&,
+                                        std::span<const double> value,
+                                        kinematics::Perturbation& out) {
+                for (const Axis axis : axes)
+                    out.axis[axis] += 1e-6 * value[0] * sample.position[axis];
+            }};
 }
 
 }  // namespace trunnion::effects

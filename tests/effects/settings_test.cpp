@@ -17,7 +17,7 @@ TEST_CASE("the catalogue has every name of the contract", "[effects]") {
         "thermal.drift",     "thermal.expansion", "gravity.sag",    "probe.pretravel",
         "probe.radius",      "probe.runout",      "tool.length",    "ballbar.length",
         "artefact.position", "artefact.form",     "artefact.moved", "control.rounding",
-        "control.chord",     "clamp.shift",       "sensor.gain"};
+        "control.chord",     "clamp.shift",       "sensor.gain",    "machine.expansion"};
     for (const char* axis : {"B", "C"})
         for (const char* what :
              {".zero", ".positioning", ".cyclic", ".radial", ".axial", ".tilt", ".backlash"})

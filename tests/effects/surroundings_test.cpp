@@ -15,6 +15,8 @@ TEST_CASE("time, temperature, load, clamps", "[effects]") {
                            const double k = s.row->temperature_c - 20.0;
                            return tip(k * Vector3(8e-6 * s.at.x(), 0.0, -5e-6 * s.at.z()));
                        }) < 1e-6);
+    CHECK(physics.miss("machine.expansion: stretch_ppm=25",
+                       [](const Seen& s) { return tip(25e-6 * s.at); }) < 1e-6);
     CHECK(physics.miss("gravity.sag: twist_rad=30urad, sag_mm=4um", [](const Seen& s) {
         const double weight = 1.0 + s.row->load_kg / 100.0;
         Wrong w;

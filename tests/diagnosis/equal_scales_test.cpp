@@ -1,0 +1,88 @@
+// A machine whose axes all stretch alike, and a laser that reads too long: the same readings on
+// every line. Neither is certain; one axis alone has its scale.
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "diagnosis/diagnosis.h"
+#include "tests/support/campaign.h"
+#include "tests/support/said.h"
+
+namespace trunnion {
+namespace {
+
+setup::Setup mill() {
+    std::vector<std::string> notes;
+    return setup::parse_setup(
+        "[machine]\nname = \"mill\"\nchain = \"w X Y b Z t\"\n"
+        "[[artefact]]\nname = \"R1\"\nkind = \"target\"\ntool_mm = [0, 0, -100]\n"
+        "[model]\nmodelled = []\nnoise_um = { linear = 0.8 }\n",
+        "mill.toml", notes);
+}
+
+/// Three runs up and down along each of these axes.
+records::ReadingTable laser_lines(const std::vector<Axis>& axes) {
+    records::ReadingTable table;
+    table.path = "laser.csv";
+    table.axes = {Axis::X, Axis::Y, Axis::Z};
+    table.side_before.fill(1);
+    for (const Axis axis : axes)
+        for (int pass = 0; pass < 6; ++pass)
+            for (int k = 0; k < 16; ++k) {
+                records::Reading row;
+                row.index = static_cast<int>(table.rows.size());
+                row.time_s = 10.0 * row.index;
+                row.commanded[axis] = 20.0 * (pass % 2 ? 15 - k : k);
+                row.test = letter_of(axis);
+                row.device = records::Device::linear;
+                row.feature = "R1";
+                row.direction_M[static_cast<Eigen::Index>(index_of(axis))] = 1.0;
+                table.rows.push_back(row);
+            }
+    return table;
+}
+
+diagnosis::Diagnosis diagnosed(const std::string& truth, const std::vector<Axis>& axes) {
+    const setup::Setup known = mill();
+    return diagnosis::diagnose(
+        known, campaign::measured(campaign::with_effect(known, truth), laser_lines(axes), 5));
+}
+
+}  // namespace
+
+TEST_CASE("equal scales of three axes are the machine's stretch or the instrument's gain",
+          "[diagnosis][equal_scales]") {
+    for (const char* truth : {"machine.expansion: stretch_ppm=30", "sensor.gain: gain_ppm=30"}) {
+        const diagnosis::Diagnosis d = diagnosed(truth, {Axis::X, Axis::Y, Axis::Z});
+        INFO(truth << '\n' << said(d));
+        REQUIRE(d.causes.size() == 1);
+        const diagnosis::Cause& cause = d.causes.front();
+        const std::string other =
+            cause.effect == "sensor.gain" ? "machine.expansion" : "sensor.gain";
+        CHECK((cause.effect == "machine.expansion" || cause.effect == "sensor.gain"));
+        CHECK(cause.probability < 0.6);
+        REQUIRE_FALSE(cause.rivals.empty());
+        CHECK(cause.rivals.front() == other);
+        CHECK(std::abs(cause.parameters.front().value) == Approx(30.0).epsilon(0.03));
+        CHECK(d.verdict == diagnosis::Verdict::ambiguous);
+        REQUIRE_FALSE(d.next.empty());
+        CHECK(d.next.front().text.find("second instrument") != std::string::npos);
+    }
+}
+
+TEST_CASE("one axis that stretches has a wrong scale", "[diagnosis][equal_scales]") {
+    const diagnosis::Diagnosis alone = diagnosed("X.scale: scale_ppm=30", {Axis::X});
+    INFO(said(alone));
+    REQUIRE_FALSE(alone.causes.empty());
+    CHECK(alone.causes.front().effect == "X.scale");
+    CHECK(std::count(alone.causes.front().rivals.begin(), alone.causes.front().rivals.end(),
+                     "machine.expansion") == 0);
+    const diagnosis::Diagnosis among =
+        diagnosed("X.scale: scale_ppm=30", {Axis::X, Axis::Y, Axis::Z});
+    INFO(said(among));
+    REQUIRE_FALSE(among.causes.empty());
+    CHECK(among.causes.front().effect == "X.scale");
+    CHECK(std::count(among.causes.front().rivals.begin(), among.causes.front().rivals.end(),
+                     "machine.expansion") == 0);
+}
+
+}  // namespace trunnion
