@@ -17,6 +17,7 @@
 #include "cli/page_options.h"
 #include "cli/readings_command.h"
 #include "diagnosis/diagnosis.h"
+#include "emulator/declared.h"
 #include "report/diagnosis_json.h"
 #include "report/diagnosis_page.h"
 #include "report/diagnosis_text.h"
@@ -81,6 +82,8 @@ int diagnose_command(const DiagnoseOptions& options) {
     const records::ReadingTable table = load_readings(options.readings, setup);
     std::optional<records::ReadingTable> holdout;
     if (!options.holdout.empty()) holdout = load_readings(options.holdout, setup);
+    emulator::refuse_declared_otherwise(setup, table);
+    if (holdout) emulator::refuse_declared_otherwise(setup, *holdout);
     diagnosis::DiagnosisOptions how;
     how.holdout = holdout ? &*holdout : nullptr;
     how.over_sessions = !options.over.empty();

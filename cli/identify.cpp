@@ -22,6 +22,7 @@
 #include "cli/shards.h"
 #include "diagnosis/store_gap.h"
 #include "effects/settings.h"
+#include "emulator/declared.h"
 #include "emulator/replay.h"
 #include "identification/monte_carlo.h"
 #include "report/identification_page.h"
@@ -143,6 +144,7 @@ int identify_command(const IdentifyOptions& options) {
     Inputs in{load_setup_option(options.setup), {}, split_names(options.effects)};
     in.setup.model.allow_large = options.allow_large;
     in.table = load_readings(options.readings, in.setup);
+    emulator::refuse_declared_otherwise(in.setup, in.table);
     BudgetMeter meter = fit_meter(options.max_seconds);
     identification::Identification result = [&] {
         Progress progress;

@@ -5,9 +5,11 @@
 #include "base/numbers.h"
 #include "base/output_files.h"
 #include "cli/command.h"
+#include "cli/notes.h"
 #include "cli/options.h"
 #include "cli/readings_command.h"
 #include "effects/settings.h"
+#include "emulator/declared.h"
 #include "emulator/replay.h"
 #include "identification/sensitivity.h"
 #include "identification/simulated.h"
@@ -50,6 +52,11 @@ std::optional<identification::Sensitivity> derivatives(const PredictOptions& opt
 int predict(const PredictOptions& options) {
     const setup::Setup setup = load_setup_option(options.setup, options.inject);
     const records::ReadingTable table = load_readings(options.readings, setup);
+    if (const std::string list = emulator::declared_otherwise(setup, table); !list.empty())
+        print_notes({options.readings +
+                     ": these points were imported with another declared "
+                     "geometry (" +
+                     list + "); predicted is what this setup reads at their positions"});
     const auto found = derivatives(options, setup, table);
     const records::ReadingTable read =
         options.noise ? identification::simulated(setup, table, options.seed)

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "base/alarm.h"
+#include "emulator/declared.h"
 #include "records/samples.h"
 
 namespace trunnion::emulator {
@@ -227,6 +228,7 @@ records::ReadingTable predicted(const setup::Setup& setup, const records::Readin
     records::ReadingTable result = table;
     for (std::size_t i = 0; i < replay.size(); ++i)
         result.rows[replay.table_row(i)].value_mm = value_mm[i];
+    declare_anew(setup, result);
     return result;
 }
 

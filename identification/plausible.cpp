@@ -15,6 +15,9 @@ namespace {
 constexpr double absurd_mm = 5.0;  ///< limit of a plausible residual; beyond it units, frame or
                                    ///< setup are wrong
 constexpr double absurd_rms_mm = 0.5;
+/// An arm whose joints were never calibrated misses by millimetres; a wrong unit or frame by far
+/// more.
+constexpr double of_an_arm = 10.0;
 constexpr double absurd_rad = 0.03;  ///< of a location error
 constexpr double absurd_zero_rad = 0.5;
 /// Delay of a slow position loop: its following error at speed is large, and plausible.
@@ -51,16 +54,17 @@ Eigen::VectorXd without_lag(const BaseModel& model, const emulator::Replay& repl
 void tell_absurd_residuals(BaseModel& model, const emulator::Replay& replay,
                            const records::ReadingTable& table) {
     const bool allowed = model.setup.model.allow_large;
+    const double wide = setup::is_arm(model.setup.machine.chain) ? of_an_arm : 1.0;
     const Eigen::VectorXd size = without_lag(model, replay);
     Eigen::Index worst = 0;
     const double most = size.maxCoeff(&worst);
     const records::Reading& row = table.rows[replay.table_row(static_cast<std::size_t>(worst))];
     const bool meant = allowed || row.sigma_mm.value_or(0.0) > 0.0;
-    if (most > absurd_mm)
+    if (most > wide * absurd_mm)
         tell_absurd(model, meant, fmt::format("a residual of {} mm", three_digits(most)),
                     records::place_of(table, row));
     const double rms = std::sqrt(size.squaredNorm() / static_cast<double>(size.size()));
-    if (rms > absurd_rms_mm)
+    if (rms > wide * absurd_rms_mm)
         tell_absurd(model, meant, fmt::format("residuals of {} mm rms", three_digits(rms)),
                     {table.path, 0, 0});
 }

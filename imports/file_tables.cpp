@@ -59,7 +59,7 @@ std::vector<TextTable> tables_of(const std::vector<Line>& lines, const std::stri
         if (!told.empty() && begin == 0 && has_numbers_above(lines, first, dialect))
             notes.push_back(fmt::format("{}: the rows begin at line {}", path, first));
         tables.push_back(std::move(table));
-        if (tables.size() > 1) tables.back().inherit(tables[tables.size() - 2].head());
+        if (tables.size() > 1) tables.back().inherit(tables[tables.size() - 2].head(), lines);
     }
     return tables;
 }

@@ -78,6 +78,18 @@ std::vector<Line> headings_above(const std::vector<Line>& lines, std::size_t beg
     return found;
 }
 
+bool section_ends(const std::vector<Line>& lines, const Line& told, int before) {
+    const std::size_t rank = marks_of(told.text);
+    for (std::size_t i = 1; i < lines.size() && lines[i].number < before; ++i) {
+        const std::size_t own = marks_of(lines[i].text);
+        if (lines[i].number <= told.number || own == 0 || !only_words(lines[i].text)) continue;
+        const Line& above = lines[i - 1];
+        const bool same_block = above.number + 1 == lines[i].number && marks_of(above.text) == own;
+        if (!same_block && own <= rank) return true;
+    }
+    return false;
+}
+
 std::string heading_words(std::string_view text) {
     const auto first = text.find_first_not_of("#*%! \t\"");
     if (first == std::string_view::npos) return "";

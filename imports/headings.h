@@ -15,6 +15,11 @@ namespace trunnion::imports {
 std::vector<TextTable::Line> headings_above(const std::vector<TextTable::Line>& lines,
                                             std::size_t begin, std::size_t at);
 
+/// True if a heading between `told` and the line `before` ends the section that `told` begins: both
+/// marked by #, of its rank or above. Comment lines that follow one another are one heading.
+bool section_ends(const std::vector<TextTable::Line>& lines, const TextTable::Line& told,
+                  int before);
+
 /// The words of a heading without its mark: "Results".
 std::string heading_words(std::string_view text);
 

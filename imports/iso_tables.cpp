@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "base/alarm.h"
 #include "imports/columns.h"
@@ -20,7 +21,11 @@ struct Judged {
     const TextTable* table = nullptr;
     bool may_be_read = false;
     bool has_targets = false;
-    int results = 0;  ///< result_words() of its headings
+    int results = 0;           ///< result_words() of its headings
+    bool single_list = false;  ///< one value a line, without cycles and directions
+    bool summed_up = false;    ///< such a list beside means or deviations: "Resolver AVG"
+    bool own_sensor = false;   ///< its headings name a sensor of the axis itself
+    bool left_out = false;     ///< for one of these reasons
 };
 
 /// "1+", "Run 2 up"; "ref_pos(i,1)" and "run 1" are too, "x_avg 1" is not.
@@ -79,6 +84,29 @@ bool looks_like_readings(const TextTable& table) {
     });
 }
 
+/// "# Resolver Performance": what the axis reads of itself.
+bool names_own_sensor(const TextTable& table) {
+    static const std::set<std::string> words{"resolver", "encoder", "openloop", "geber"};
+    return std::any_of(table.headings().begin(), table.headings().end(), [](const auto& line) {
+        const std::vector<std::string> list = words_of(heading_words(line.text));
+        return std::any_of(list.begin(), list.end(),
+                           [](const std::string& word) { return words.contains(word); });
+    });
+}
+
+/// A list without runs, cycles and directions.
+bool is_single_list(const TextTable& table) {
+    return !any_column(table, is_run) &&
+           !find_column(table,
+                        {"run", "cycle", "lauf", "zyklus", "repeat", "wiederholung", "series",
+                         "jcycle", "direction", "dir", "richtung", "sense", "approach"});
+}
+
+/// The axis is told for this table alone, above it or in a column.
+bool tells_axis(const TextTable& table) {
+    return table.says_itself("axis") || find_column(table, {"axis", "achse", "axisname"});
+}
+
 Judged judged(const TextTable& table) {
     const int results = result_words(table.headings());
     try {
@@ -88,7 +116,12 @@ Judged judged(const TextTable& table) {
         const bool value = any_column(table, is_run) || find_value_column(table, *target);
         const bool only_results =
             results > 0 || any_column(table, is_result) || only_conditions(table, *target);
-        return {&table, value || !only_results, true, results};
+        Judged one{&table, value || !only_results, true, results};
+        if (!value || tells_axis(table)) return one;
+        one.single_list = is_single_list(table);
+        one.summed_up = one.single_list && any_column(table, is_result);
+        one.own_sensor = names_own_sensor(table);
+        return one;
     } catch (const InputError&) {
         return {&table, results == 0, true, results};  // reading it tells the fault
     }
@@ -99,15 +132,29 @@ std::string passed_over(const Judged& one) {
     std::string heading;
     if (!table.headings().empty())
         heading = fmt::format(" ('{}')", heading_words(table.headings().front().text));
-    return fmt::format(
-        "{}: the table of line {}{} {}: passed over", table.path(), table.header_line().number,
-        heading,
-        one.may_be_read ? "is one of results, by its headings" : "has no readings of targets");
+    const char* why = one.left_out      ? "is no test of the axis as the others of this file are"
+                      : one.may_be_read ? "is one of results, by its headings"
+                                        : "has no readings of targets";
+    return fmt::format("{}: the table of line {}{} {}: passed over", table.path(),
+                       table.header_line().number, heading, why);
+}
+
+/// Leaves out what differs from the other tables of the file: a list beside tables of cycles, means
+/// beside readings, what a sensor of the axis reads beside what an instrument does.
+void leave_out_others(std::vector<Judged>& list, int least) {
+    const auto is_taken = [&](const Judged& one) {
+        return one.may_be_read && one.results <= least && !one.left_out;
+    };
+    for (const auto differs : {&Judged::single_list, &Judged::summed_up, &Judged::own_sensor}) {
+        const bool others = std::any_of(list.begin(), list.end(), [&](const Judged& one) {
+            return is_taken(one) && !(one.*differs);
+        });
+        for (Judged& one : list) one.left_out |= others && is_taken(one) && one.*differs;
+    }
 }
 
 /// Of one file. Its readings are under the headings that speak least of results.
-std::vector<const TextTable*> chosen(const std::vector<Judged>& list,
-                                     std::vector<std::string>& notes) {
+std::vector<const TextTable*> chosen(std::vector<Judged> list, std::vector<std::string>& notes) {
     int least = 2;
     bool any = false;
     for (const Judged& one : list)
@@ -120,9 +167,10 @@ std::vector<const TextTable*> chosen(const std::vector<Judged>& list,
             std::find_if(list.begin(), list.end(), [](const Judged& j) { return j.has_targets; });
         return {(best == list.end() ? list.front() : *best).table};
     }
+    leave_out_others(list, least);
     std::vector<const TextTable*> tables;
     for (const Judged& one : list) {
-        const bool take = one.may_be_read && one.results <= least;
+        const bool take = one.may_be_read && one.results <= least && !one.left_out;
         if (take) tables.push_back(one.table);
         if (!take) notes.push_back(passed_over(one));
     }
@@ -140,7 +188,7 @@ std::vector<const TextTable*> tables_with_readings(const std::vector<TextTable>&
             if (tables[k].path() != path) break;
             of_file.push_back(judged(tables[k]));
         }
-        for (const TextTable* table : chosen(of_file, notes)) all.push_back(table);
+        for (const TextTable* table : chosen(std::move(of_file), notes)) all.push_back(table);
     }
     return all;
 }

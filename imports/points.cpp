@@ -201,11 +201,14 @@ class Targets {
     Targets(const setup::Setup& setup, std::string told, const setup::Instrument* instrument)
         : setup_(setup), told_(std::move(told)), instrument_(instrument) {}
 
-    const CommandedTarget& named(const std::string& name, records::Reading& row) {
+    const CommandedTarget& named(const std::string& name, records::Reading& row, RowWriter& rows) {
         const setup::Artefact& artefact =
             artefact_for(setup_, name.empty() ? told_ : name, setup::Artefact::Kind::target);
         row.feature = artefact.name;
-        return targets_.try_emplace(artefact.name, setup_, artefact, instrument_).first->second;
+        const auto [at, is_first] =
+            targets_.try_emplace(artefact.name, setup_, artefact, instrument_);
+        if (is_first) rows.declare("target " + artefact.name);
+        return at->second;
     }
 
   private:
@@ -232,14 +235,16 @@ void import_table_of_points(const TextTable& table, const ImportRequest& request
     rows.begin_file(table, facts);
     if (time.dated()) rows.name_days();
     if (time.invented()) rows.invent_times();
+    rows.declare("chain");
+    rows.declare(instrument ? "instrument " + instrument->name : "instrument");
     std::size_t left_out = 0;
     PointFile file{table, columns, nullptr, setup, measured_points(table, columns, left_out)};
     std::vector<records::TableCell> cells;
     for (const MeasuredPoint& point : file.points) {
         table.read(point.row, cells);
         row.time_s = time.time_s(table, point.row, cells);
-        file.target =
-            &targets.named(columns.feature ? cells[*columns.feature].plain() : std::string(), row);
+        const std::string feature = columns.feature ? cells[*columns.feature].plain() : "";
+        file.target = &targets.named(feature, row, rows);
         const int before = rows.count();
         write_point(file, point, cells, row, rows);
         if (rows.count() > before)

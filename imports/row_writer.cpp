@@ -8,6 +8,7 @@
 #include "base/alarm.h"
 #include "imports/times.h"
 #include "records/table_line.h"
+#include "setup/declared.h"
 
 namespace trunnion::imports {
 namespace {
@@ -55,7 +56,9 @@ records::ReadingTable head_of(const setup::Setup& setup, const std::string& kind
 
 RowWriter::RowWriter(const setup::Setup& setup, const std::string& kind,
                      std::vector<std::string> columns, bool directions, bool degrees)
-    : head_(head_of(setup, kind, std::move(columns))), writer_(head_, directions, degrees) {
+    : setup_(setup),
+      head_(head_of(setup, kind, std::move(columns))),
+      writer_(head_, directions, degrees) {
     text_ = writer_.head_text();
 }
 
@@ -94,6 +97,16 @@ std::string RowWriter::day_of_row(double time_s) {
 void RowWriter::invent_times() {
     const std::string line = fmt::format("# {} = {}\n", records::times_key, records::invented);
     if (text_.find(line) == std::string::npos) text_.insert(0, line);
+}
+
+void RowWriter::declare(const std::string& part) {
+    const bool readable = std::all_of(part.begin(), part.end(), [](char c) {
+        return c != '=' && static_cast<unsigned char>(c) >= ' ';
+    });
+    if (!readable || !declared_.insert(part).second) return;
+    const auto digests = setup::declared_digests(setup_);
+    if (const auto own = digests.find(part); own != digests.end())
+        text_.insert(0, fmt::format("# {}{} = {}\n", records::declared_key, part, own->second));
 }
 
 void RowWriter::add_column(const std::string& name) {

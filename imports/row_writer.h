@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,9 @@ class RowWriter {
     void name_days() { dated_ = true; }
     /// Times of the following rows are an order only: the table says so in its head.
     void invent_times();
+    /// The values of the following rows depend on this part of the setup ("chain", "target S1"):
+    /// the table says in its head what it was.
+    void declare(const std::string& part);
     /// Another program run in the same file: its clock may restart.
     void begin_run() { begins_ = true; }
     /// `row.time_s` is the time in the file; throws InputError when it decreases within a session.
@@ -42,6 +46,8 @@ class RowWriter {
     std::string take() { return std::move(text_); }
 
   private:
+    const setup::Setup& setup_;
+    std::set<std::string> declared_;
     records::ReadingTable head_;
     records::ReadingWriter writer_;
     std::string text_, path_, name_, session_, last_session_;

@@ -19,6 +19,7 @@ namespace {
 constexpr std::size_t sample_lines = 200;
 constexpr std::size_t longest_unit = 10;  ///< letters
 constexpr std::size_t longest_head = 30;  ///< maximum number of lines between two tables
+const std::string heading_direction = "heading direction";
 
 using Line = TextTable::Line;
 using Cells = std::vector<records::TableCell>;
@@ -121,6 +122,7 @@ TextTable::TextTable(const std::vector<Line>& lines, std::size_t begin, std::str
     const std::size_t at = exported       ? exported->names
                            : told.empty() ? find_header(lines, begin)
                                           : first_told_row(lines, begin, told);
+    if (begin < lines.size()) first_line_ = lines[begin].number;
     read_head(lines, begin, at);
     headings_ = headings_above(lines, begin, at);
     if (at == lines.size()) return;
@@ -310,7 +312,7 @@ void TextTable::read_head(const std::vector<Line>& lines, std::size_t begin, std
         std::string_view text = lines[i].text;
         while (!text.empty() && one_of(text[0], "#%*! \"")) text.remove_prefix(1);
         if (const auto way = direction_of_heading(std::string(text)))
-            head_["heading direction"] = {*way, lines[i]};
+            head_[heading_direction] = {*way, lines[i]};
         const std::string cuts = std::string(":=;\t") + (dialect_.separator == ',' ? "," : "");
         const std::size_t cut = text.find_first_of(cuts);
         if (cut == std::string_view::npos) continue;
@@ -321,6 +323,25 @@ void TextTable::read_head(const std::vector<Line>& lines, std::size_t begin, std
         std::erase(key, '"');
         head_[key] = {std::string(records::without_blanks(value)), lines[i]};
     }
+    const auto way = head_.find(heading_direction);
+    if (way != head_.end() && end < lines.size() &&
+        section_ends(lines, way->second.line, lines[end].number))
+        head_.erase(way);
+}
+
+void TextTable::inherit(const Head& above, const std::vector<Line>& lines) {
+    const bool known = head_.contains(heading_direction);
+    head_.insert(above.begin(), above.end());
+    const auto way = head_.find(heading_direction);
+    if (known || way == head_.end()) return;
+    const Line& told = way->second.line;
+    const bool other_words = !told.text.starts_with('#') && !headings_.empty();
+    if (other_words || section_ends(lines, told, header_.number)) head_.erase(way);
+}
+
+bool TextTable::says_itself(const std::string& key) const {
+    const auto entry = head_.find(key);
+    return entry != head_.end() && entry->second.line.number >= first_line_;
 }
 
 std::string TextTable::dialect_words() const {

@@ -44,7 +44,11 @@ class TextTable {
     const std::string& path() const { return path_; }
     const std::vector<TextColumn>& columns() const { return columns_; }
     const Head& head() const { return head_; }  ///< `Feed: 1000` ..
-    void inherit(const Head& above) { head_.insert(above.begin(), above.end()); }
+    /// What the lines above an earlier table of the file said; not the direction of a heading whose
+    /// section ended.
+    void inherit(const Head& above, const std::vector<Line>& lines);
+    /// True if a line between the table before and this one says it.
+    bool says_itself(const std::string& key) const;
     /// "; between the columns, decimal comma"
     std::string dialect_words() const;
 
@@ -94,6 +98,7 @@ class TextTable {
     std::vector<Line> headings_;
     std::vector<Line> rows_;
     Line header_;
+    int first_line_ = 0;  ///< number of the first line of its head
     std::size_t end_ = 0;
 };
 

@@ -2,6 +2,7 @@
 
 #include "diagnosis/diagnosis.h"
 #include "effects/settings.h"
+#include "emulator/declared.h"
 #include "emulator/replay.h"
 #include "identification/identify.h"
 #include "identification/sensitivity.h"
@@ -48,6 +49,7 @@ ReadingTable predict(const LoadedSetup& loaded, const ReadingTable& table,
 
 FoundIdentification identify(const LoadedSetup& loaded, const ReadingTable& table,
                              const std::vector<std::string>& effects, bool allow_large) {
+    emulator::refuse_declared_otherwise(loaded.setup, table);
     Identification found =
         identification::identify(with_large(loaded, allow_large), table, effects);
     return {report::identification_json(found),
@@ -57,6 +59,8 @@ FoundIdentification identify(const LoadedSetup& loaded, const ReadingTable& tabl
 
 FoundDiagnosis diagnose(const LoadedSetup& loaded, const ReadingTable& table,
                         const std::optional<ReadingTable>& holdout, bool allow_large) {
+    emulator::refuse_declared_otherwise(loaded.setup, table);
+    if (holdout) emulator::refuse_declared_otherwise(loaded.setup, *holdout);
     diagnosis::DiagnosisOptions how;
     how.holdout = holdout ? &*holdout : nullptr;
     how.watch = [](const char*) { stop_on_ctrl_c(); };

@@ -31,6 +31,18 @@ void refuse_unlike(const ReadingTable& first, const ReadingTable& next) {
         throw InputError("another '# touches' than " + first.path, {next.path, 0, 0});
 }
 
+/// Head lines `declared ..` of both tables must agree.
+void join_declared(ReadingTable& to, const ReadingTable& from) {
+    for (const auto& [key, digest] : from.comment) {
+        if (!key.starts_with(declared_key)) continue;
+        if (to.comment.try_emplace(key, digest).first->second != digest)
+            throw InputError("imported with another declared geometry (" +
+                                 key.substr(std::string_view(declared_key).size()) + ") than " +
+                                 to.path + ": import both with one setup",
+                             {from.path, 0, 0});
+    }
+}
+
 /// The same table given twice would look like repeats without noise.
 void refuse_same(const ReadingTable& first, const ReadingTable& next) {
     const auto same = [](const Reading& a, const Reading& b) {
@@ -70,6 +82,7 @@ void append(ReadingTable& to, ReadingTable from) {
             to.optional_columns.push_back(std::move(column));
     if (!has_times(from)) to.comment[times_key] = invented;
     if (!touches_of(from).empty()) to.comment["touches"] = touches_of(from);
+    join_declared(to, from);
     to.parts.push_back(from.path);
 }
 

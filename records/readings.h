@@ -65,6 +65,9 @@ struct ReadingTable {
 /// Head line `times = invented`: no clock was read, the times of the rows are their order.
 constexpr const char *times_key = "times", *invented = "invented";
 bool has_times(const ReadingTable& table);
+/// Head lines `declared chain = digest`: the declared geometry beside which the values of points
+/// were taken (setup/declared.h).
+constexpr const char* declared_key = "declared ";
 
 /// True when every row with a device reads an angle.
 bool only_angles(const ReadingTable& table);

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "report/diagnosis_words.h"
 #include "report/error_table.h"
 #include "report/json_values.h"
 #include "report/parameters_json.h"
@@ -150,7 +151,7 @@ std::string diagnosis_json(const diagnosis::Diagnosis& d, const std::vector<File
                 {"touch", json_of(d.noise.touch)},
                 {"ballbar", json_of(d.noise.ballbar)},
                 {"doubt", d.noise.doubt}}},
-              {"unseen", d.unseen},
+              {"unseen", unseen_effects(d)},
               {"inseparable", json_inseparable(d.inseparable)},
               {"readings", d.readings}};
     if (d.after.set_aside > 0) json["after"]["set_aside"] = d.after.set_aside;

@@ -8,6 +8,7 @@
 #include "base/rounded.h"
 #include "report/diagnosis_words.h"
 #include "report/error_table.h"
+#include "report/next_words.h"
 #include "report/session_changes.h"
 #include "report/svg.h"
 #include "report/xml.h"
@@ -21,12 +22,22 @@ struct Bar {
     std::string colour;
 };
 
-constexpr double bar_left = 190.0, bar_width = 420.0, bar_line = 26.0;
+constexpr double least_left = 190.0, bar_width = 420.0, bar_line = 26.0;
+
+/// Width of the names in front of the bars.
+double left_of(const std::vector<Bar>& list) {
+    constexpr double letter = 7.2, margin = 20.0;
+    double left = least_left;
+    for (const Bar& bar : list)
+        left = std::max(left, margin + letter * static_cast<double>(bar.name.size()));
+    return left;
+}
 
 /// Horizontal bars, one a line, on an axis from 0 to `full` in `unit`.
 std::string bars(const std::vector<Bar>& list, double full, const std::string& unit,
                  double dashed_at = -1.0, const std::string& dashed_text = "") {
     const bool dashed = dashed_at >= 0.0;
+    const double bar_left = left_of(list);
     const double top = dashed ? 26.0 : 8.0;
     const double bottom = top + bar_line * static_cast<double>(list.size());
     Svg svg(bar_left + bar_width + 110.0, bottom + 44.0);
@@ -59,13 +70,19 @@ std::string bars(const std::vector<Bar>& list, double full, const std::string& u
     return svg.str();
 }
 
+/// Colour only for what is claimed.
 std::string share_bars(const diagnosis::Diagnosis& d) {
     std::vector<Bar> list;
-    for (std::size_t k = 0; k < d.causes.size(); ++k)
+    for (std::size_t k = 0; k < d.causes.size(); ++k) {
+        const diagnosis::Cause& cause = d.causes[k];
+        const char* grey = cause.known ? "#d5d5d5" : "#999999";
         list.push_back(
-            {cause_name(d, d.causes[k]), fmt::format("{} %", percent(d.causes[k].share)),
-             d.causes[k].share,
-             !d.causes[k].known ? std::string("#999999") : plot_colours[k % plot_colours.size()]});
+            {cause_name(d, cause),
+             fmt::format("{} %{}", percent(cause.share), is_claimed(cause) ? "" : ", not claimed"),
+             cause.share,
+             cause.known && is_claimed(cause) ? plot_colours[k % plot_colours.size()]
+                                              : std::string(grey)});
+    }
     return bars(list, 100.0, "share of the gap in %");
 }
 
@@ -77,14 +94,14 @@ std::string before_after(const diagnosis::Diagnosis& d, const diagnosis::HeldOut
     if (h.rms_before_um <= 0.0) return "";
     const std::vector<Bar> list{
         {"simulation as it is", size_words(d, h.rms_before_um), 1.0, "#d55e00"},
-        {"with the causes added", size_words(d, h.rms_after_um), h.rms_after_um / h.rms_before_um,
+        {"with the written setup", size_words(d, h.rms_after_um), h.rms_after_um / h.rms_before_um,
          "#0072b2"}};
     return bars(list, h.rms_before_um,
                 fmt::format("difference between machine and simulation, {} rms", unit_of(d)),
                 h.noise_um, "noise " + size_words(d, h.noise_um));
 }
 
-/// Machine minus simulation of each reading, without and with the causes, with the noise as a band.
+/// Machine minus simulation of each reading, without and with what was found; the noise as a band.
 std::string residual_plot(const diagnosis::Diagnosis& d) {
     const std::size_t n = d.before_um.size();
     if (n < 2) return "";
@@ -95,10 +112,11 @@ std::string residual_plot(const diagnosis::Diagnosis& d) {
     const double top = std::max(1.2 * size[(n - 1) * 995 / 1000], 3.0 * d.noise_um);
     const PlotRange x = round_range(0.0, static_cast<double>(n), 6), y = round_range(-top, top, 6);
     Svg svg(740.0, 330.0);
-    svg.describe("Machine minus simulation of each reading",
-                 fmt::format("In the order taken, in {}, without and with the causes; the noise as "
-                             "a band.",
-                             unit_of(d)));
+    svg.describe(
+        "Machine minus simulation of each reading",
+        fmt::format("In the order taken, in {}, without and with what was found; the noise as "
+                    "a band.",
+                    unit_of(d)));
     Plot plot(svg, {{64.0, 34.0}, 650.0, 230.0}, x, y);
     const Point2 high = plot.at(0.0, 2.0 * d.noise_um), low = plot.at(x.high, -2.0 * d.noise_um);
     svg.rectangle(high, low.x - high.x, low.y - high.y, {"none", 0.0, "#e8e8e8", ""});
@@ -116,7 +134,7 @@ std::string residual_plot(const diagnosis::Diagnosis& d) {
         svg.text({at + 17.0, 20.0}, text, 12);
     };
     key(64.0, "#d55e00", "simulation as it is");
-    key(230.0, "#0072b2", "with the causes added");
+    key(230.0, "#0072b2", "with what was found");
     key(420.0, "#e8e8e8", "plus and minus two sigma of noise");
     return svg.str();
 }
@@ -132,47 +150,59 @@ std::string rivals_text(const diagnosis::Cause& cause) {
                                 : escape_xml(fmt::format("{}", fmt::join(cause.rivals, ", ")));
 }
 
+/// A negative shrink says by no number how far the gap grows.
+std::string alone_html(const diagnosis::HeldOut& heldout) {
+    const std::string size =
+        heldout.shrink < 0.0 ? "nothing alone" : percent(heldout.shrink) + " %";
+    return size + "<br><span class=\"note\">95 %: " + interval_words(heldout, " %") + "</span>";
+}
+
 std::string cause_table(const diagnosis::Diagnosis& d) {
-    std::string text =
-        "<div class=\"scroll\" tabindex=\"0\"><table>\n" +
-        row({"Cause", "Share of the gap", "Size", "Could also be", "Alone it shrinks the gap by"},
-            "th");
+    std::string text = "<div class=\"scroll\" tabindex=\"0\"><table>\n" +
+                       row({"Cause", "Probability", "Share of the gap", "Size", "Could also be",
+                            "Alone it shrinks the gap by"},
+                           "th");
     for (const diagnosis::Cause& cause : d.causes) {
         const bool known = cause.known;
         text += row({"<b>" + escape_xml(cause_name(d, cause)) + "</b><br><span class=\"note\">" +
                          escape_xml(cause.what) + "</span>",
+                     escape_xml(probability_words(cause.probability)) +
+                         (is_claimed(cause) ? "" : "<br><span class=\"note\">not claimed</span>"),
                      fmt::format("{} %", percent(cause.share)),
                      known ? escape_xml(main_size(cause)) : "&ndash;",
                      known ? rivals_text(cause) : "&ndash;",
-                     known ? fmt::format("{} %<br><span class=\"note\">95 %: {} to "
-                                         "{} %</span>",
-                                         percent(cause.heldout.shrink), percent(cause.heldout.low),
-                                         percent(cause.heldout.high))
-                           : "&ndash;"});
+                     known ? alone_html(cause.heldout) : "&ndash;"});
     }
     return text + "</table></div>\n";
 }
 
+/// "probability 0.11, not claimed"
+std::string claim_words(const diagnosis::Cause& cause) {
+    return "probability " + probability_words(cause.probability) +
+           (is_claimed(cause) ? "" : ", not claimed");
+}
+
+std::string cause_heading(const diagnosis::Diagnosis& d, const diagnosis::Cause& cause) {
+    return "<h3>" + escape_xml(cause_name(d, cause)) + "</h3>\n<p class=\"note\">" +
+           escape_xml(upper_first(claim_words(cause))) + ".</p>\n";
+}
+
 std::string free_form_section(const diagnosis::Diagnosis& d, const diagnosis::Cause& cause) {
     return fmt::format(
-        "<h3>{}</h3>\n<p>{}. <b>What to do:</b> {}.{}</p>\n{}<details><summary>Table"
+        "{}<p>{}. <b>What to do:</b> {}.{}</p>\n{}<details><summary>Table"
         "</summary><pre tabindex=\"0\">{}</pre></details>\n",
-        escape_xml(cause_name(d, cause)), escape_xml(cause.what), escape_xml(cause.remedy),
+        cause_heading(d, cause), escape_xml(cause.what), escape_xml(cause.remedy),
         cause.holds_between ? "" : " It holds at the measured places only.", error_curves(cause),
         escape_xml(error_table(cause)));
 }
 
 std::string cause_section(const diagnosis::Diagnosis& d, const diagnosis::Cause& cause) {
     if (!cause.points.empty()) return free_form_section(d, cause);
-    if (!cause.known)
-        return fmt::format("<h3>{}</h3>\n<p>{}.</p>\n", escape_xml(cause.effect),
-                           escape_xml(cause.what));
+    if (!cause.known) return cause_heading(d, cause) + "<p>" + escape_xml(cause.what) + ".</p>\n";
     if (cause.parameters.empty()) return "";
-    std::string text = fmt::format(
-        "<h3>{}</h3>\n<p>{}. <b>Usual cause:</b> {}. <b>What to do:</b> "
-        "{}.</p>\n",
-        escape_xml(cause_name(d, cause)), escape_xml(cause.what), escape_xml(cause.usual_cause),
-        escape_xml(cause.remedy));
+    std::string text = fmt::format("{}<p>{}. <b>Usual cause:</b> {}. <b>What to do:</b> {}.</p>\n",
+                                   cause_heading(d, cause), escape_xml(cause.what),
+                                   escape_xml(cause.usual_cause), escape_xml(cause.remedy));
     if (!cause.rivals.empty())
         text += fmt::format("<p class=\"bad-text\">{}: {}.</p>\n", upper_first(rivals_words(cause)),
                             rivals_text(cause));
@@ -212,7 +242,7 @@ std::string set_up_section(const diagnosis::Diagnosis& d) {
 std::string next_section(const diagnosis::Diagnosis& d) {
     if (d.next.empty()) return "";
     std::string text = "<h2>What to measure next</h2>\n";
-    for (const diagnosis::NextMeasurement& next : d.next) {
+    for (const PlannedMeasurement& next : planned_measurements(d)) {
         text += "<p>" + escape_xml(upper_first(next.text)) + ".</p>\n";
         if (!next.program.empty())
             text += "<details><summary>NC program</summary><pre tabindex=\"0\">" +
@@ -233,6 +263,9 @@ std::string small_print(const diagnosis::Diagnosis& d) {
     entry("Share",
           "fraction of the squared gap beyond noise that is due to this cause; independent of the "
           "order in which causes are added.");
+    entry("Probability",
+          "weight of the models with this cause against those without it or with another in its "
+          "place. A cause below 0.5 is listed, but not claimed.");
     entry("Shrinks by",
           "reduction of the gap beyond noise on readings that took no part in the fit, with its 95 "
           "% interval.");
@@ -241,9 +274,8 @@ std::string small_print(const diagnosis::Diagnosis& d) {
     if (d.copies > 0)
         entry("Copies",
               fmt::format("{} more repeat the one before exactly and do not count.", d.copies));
-    if (!d.unseen.empty())
-        entry("Not to be seen here",
-              escape_xml(fmt::format("{}", fmt::join(d.unseen, ", "))) + ".");
+    if (const auto unseen = unseen_effects(d); !unseen.empty())
+        entry("Not to be seen here", escape_xml(fmt::format("{}", fmt::join(unseen, ", "))) + ".");
     return text + "</dl>\n";
 }
 
@@ -251,18 +283,18 @@ std::string small_print(const diagnosis::Diagnosis& d) {
 std::string causes_section(const diagnosis::Diagnosis& d) {
     if (d.causes.empty() || is_only_spoiled(d) || d.only_scatter) return {};
     return section_html("Which effect",
-                        figure_html(share_bars(d), "Part of the gap that is due to each cause") +
+                        figure_html(share_bars(d), "Part of the gap that each takes in the fit") +
                             cause_table(d)) +
            section_html(
                "How far the gap shrinks",
-               paragraph_html("All causes together, on readings that took no part in the fit.") +
+               paragraph_html("With the written setup, on readings that took no part in the fit.") +
                    figure_html(before_after(d, d.after), "Before and after") +
                    paragraph_html(fmt::format(
-                       "{}Beyond noise the gap shrinks by {} % (95 %: {} to {} %).",
+                       "{}Beyond noise the gap shrinks by {} % (95 %: {}).",
                        d.writes_causes ? ""
                                        : "The written setup has none of the causes: none of them "
                                          "helps on readings elsewhere. ",
-                       percent(d.after.shrink), percent(d.after.low), percent(d.after.high))));
+                       percent(d.after.shrink), interval_words(d.after, " %"))));
 }
 
 Tone tone_of(const diagnosis::Diagnosis& d) {

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/rounded.h"
 #include "report/diagnosis_words.h"
 #include "report/error_table.h"
+#include "report/next_words.h"
 #include "report/paragraph.h"
 #include "report/session_changes.h"
 
@@ -43,6 +45,9 @@ std::string cause_text(const diagnosis::Diagnosis& d, const diagnosis::Cause& ca
         text += paragraph("Usual cause: " + cause.usual_cause + ".", 2) +
                 paragraph("What to do: " + cause.remedy + ".", 2);
     text += parameters_text(cause.parameters);
+    if (is_sure_only_together(cause))
+        text +=
+            paragraph("none of these values is certain by itself, only what they do together", 2);
     for (const identification::Inseparable& group : cause.unseen)
         text += paragraph("not observable from these readings: " + to_string(group), 2);
     if (!cause.points.empty())
@@ -55,9 +60,31 @@ std::string cause_text(const diagnosis::Diagnosis& d, const diagnosis::Cause& ca
     text += fmt::format(
         "  held out: {} -> {} (noise {}): ", size_words(d, cause.heldout.rms_before_um),
         size_words(d, cause.heldout.rms_after_um), size_words(d, cause.heldout.noise_um));
-    if (cause.heldout.shrink < 0.0) return text + "no better by this alone\n";
-    return text + fmt::format("shrinks by {} % ({} to {})\n", percent(cause.heldout.shrink),
-                              percent(cause.heldout.low), percent(cause.heldout.high));
+    if (cause.heldout.shrink >= 0.0)
+        return text + fmt::format("shrinks by {} % ({})\n", percent(cause.heldout.shrink),
+                                  interval_words(cause.heldout));
+    return text + (is_claimed(cause) && d.causes.size() > 1
+                       ? "no better by this alone, only together with others\n"
+                       : "no better by this alone\n");
+}
+
+/// What is left with the causes, and with the setup that is written.
+std::string after_text(const diagnosis::Diagnosis& d) {
+    const bool any = std::any_of(d.causes.begin(), d.causes.end(), [](const auto& cause) {
+        return cause.known && is_claimed(cause);
+    });
+    const std::string explained = fmt::format(
+        "after: rms {}; of readings left out {} {} %{}; ", size_words(d, d.after_rms_um),
+        any ? "the causes explain" : "what is listed explains", percent(d.explained),
+        d.between_places ? "" : " at the measured places");
+    const std::string shrink =
+        fmt::format("shrinks by {} % ({})", percent(d.after.shrink), interval_words(d.after));
+    return "\n" + paragraph(explained + (d.writes_causes
+                                             ? "with the written setup the gap " + shrink
+                                             : "the written setup has none of them; with it the "
+                                               "gap " +
+                                                   shrink),
+                            0);
 }
 
 }  // namespace
@@ -80,22 +107,12 @@ std::string diagnosis_text(const diagnosis::Diagnosis& d) {
     if (d.chosen_from > 0) text += fmt::format("  chosen evenly from {} readings\n", d.chosen_from);
     for (const diagnosis::DriverShare& w : d.where) text += fmt::format("  {}\n", w.text);
     for (const diagnosis::Cause& cause : d.causes) text += cause_text(d, cause);
-    if (!d.causes.empty() && !is_only_spoiled(d) && !d.only_scatter)
-        text += "\n" + paragraph(fmt::format("after: rms {}; of readings left out the causes "
-                                             "explain {} %{}; with the "
-                                             "written setup{} the gap shrinks by {} % ({} to "
-                                             "{})",
-                                             size_words(d, d.after_rms_um), percent(d.explained),
-                                             d.between_places ? "" : " at the measured places",
-                                             d.writes_causes ? "" : ", which has none of them,",
-                                             percent(d.after.shrink), percent(d.after.low),
-                                             percent(d.after.high)),
-                                 0);
+    if (!d.causes.empty() && !is_only_spoiled(d) && !d.only_scatter) text += after_text(d);
     if (d.causes.empty())
         for (const identification::Inseparable& group : d.inseparable)
             text += paragraph("not observable from these readings: " + to_string(group), 0);
     text += changes_text(d);
-    for (const diagnosis::NextMeasurement& next : d.next)
+    for (const PlannedMeasurement& next : planned_measurements(d))
         text += paragraph("next: " + next.text, 0);
     return text;
 }

@@ -37,8 +37,14 @@ std::string plain_name(const identification::FitParameter& p) {
 
 constexpr double improbable = 0.1;  ///< probability below which rivals are rather the cause
 
-bool is_sure(const diagnosis::Diagnosis& d) {
-    return !d.causes.empty() && is_claimed(d.causes.front());
+using Causes = std::vector<const diagnosis::Cause*>;
+
+/// What may be said to be a cause; "unknown" is none.
+Causes claimed_causes(const diagnosis::Diagnosis& d) {
+    Causes list;
+    for (const diagnosis::Cause& cause : d.causes)
+        if (cause.known && is_claimed(cause)) list.push_back(&cause);
+    return list;
 }
 
 /// True where the first cause has rivals and is itself improbable.
@@ -47,18 +53,57 @@ bool is_rather_a_rival(const diagnosis::Diagnosis& d) {
            d.causes.front().probability < improbable;
 }
 
-/// Before the name of the first cause.
-std::string by_words(const diagnosis::Diagnosis& d) {
-    if (!is_sure(d)) return "but by what is uncertain; most probably it is";
-    if (d.causes.front().share >= 0.5) return "most of it by";
-    return fmt::format("by {} effects, the largest of them", d.causes.size());
+/// True where nothing is claimed, but the first cause has rivals.
+bool is_one_of_rivals(const diagnosis::Diagnosis& d) {
+    return !d.causes.empty() && !d.causes.front().rivals.empty() && !is_claimed(d.causes.front());
 }
 
-/// Name of the first cause that has rivals; empty if none has.
+std::string with_probability(const diagnosis::Diagnosis& d, const diagnosis::Cause& cause) {
+    return cause_name(d, cause) + " (probability " + probability_words(cause.probability) + ")";
+}
+
+/// Where nothing is claimed: the most probable of the listed causes.
+std::string likeliest(const diagnosis::Diagnosis& d) {
+    const auto most = std::max_element(
+        d.causes.begin(), d.causes.end(),
+        [](const auto& a, const auto& b) { return a.probability < b.probability; });
+    return most == d.causes.end() ? "" : with_probability(d, *most);
+}
+
+/// By which causes the gap is explained.
+std::string by_words(const diagnosis::Diagnosis& d) {
+    const Causes causes = claimed_causes(d);
+    if (causes.empty()) return "but by what is uncertain; the likeliest is " + likeliest(d);
+    const std::string first = cause_name(d, *causes.front());
+    if (causes.front()->share >= 0.5) return "most of it by " + first;
+    if (causes.size() == 1) return "in part by " + first;
+    return fmt::format("by {} effects, the largest of them {}", causes.size(), first);
+}
+
+/// Name of the first claimed cause that has rivals; empty if none has.
 std::string rivalled(const diagnosis::Diagnosis& d) {
-    for (const diagnosis::Cause& cause : d.causes)
-        if (!cause.rivals.empty()) return cause_name(d, cause);
+    for (const diagnosis::Cause* cause : claimed_causes(d))
+        if (!cause->rivals.empty()) return cause_name(d, *cause);
     return "";
+}
+
+/// "; for the rest these readings cannot tell X.scale from its rivals", where no claimed cause has
+/// any, but another one.
+std::string open_rest(const diagnosis::Diagnosis& d) {
+    if (claimed_causes(d).empty() || !rivalled(d).empty()) return "";
+    for (const diagnosis::Cause& cause : d.causes)
+        if (cause.known && !cause.rivals.empty())
+            return "; for the rest these readings cannot tell " + cause_name(d, cause) +
+                   " from its rivals";
+    return "";
+}
+
+/// "EXX, EYX": the errors of its table.
+std::string errors_of(const diagnosis::Cause& cause) {
+    std::vector<std::string> names;
+    for (const diagnosis::TablePoint& p : cause.points)
+        if (std::find(names.begin(), names.end(), p.error) == names.end()) names.push_back(p.error);
+    return fmt::format("{}", fmt::join(names, ", "));
 }
 
 std::string gap_words(const diagnosis::Diagnosis& d) {
@@ -73,20 +118,48 @@ std::string spoiled_words(const diagnosis::Diagnosis& d) {
 
 std::string shrink_words(const diagnosis::Diagnosis& d) {
     return fmt::format(
-        "With that in the simulation the gap beyond noise shrinks by {} % ({} to {} %) "
-        "on readings that took no part in the fit{}.",
-        percent(d.after.shrink), percent(d.after.low), percent(d.after.high),
-        d.between_places ? "" : ", at the measured places");
+        "With the written setup{} the gap beyond noise shrinks by {} % ({}) on readings that took "
+        "no part in the fit{}.",
+        d.writes_causes ? "" : ", which has none of the causes,", percent(d.after.shrink),
+        interval_words(d.after, " %"), d.between_places ? "" : ", at the measured places");
 }
 
-std::string causes_words(const diagnosis::Diagnosis& d) {
+std::string claimed_words(const diagnosis::Diagnosis& d) {
     std::string text;
-    for (const diagnosis::Cause& cause : d.causes) {
-        if (!cause.known) continue;
-        text += fmt::format("{}{} ({} %)", text.empty() ? "" : ", ", cause_name(d, cause),
-                            percent(cause.share));
-    }
+    for (const diagnosis::Cause* cause : claimed_causes(d))
+        text += fmt::format("{}{} ({} %, probability {})", text.empty() ? "" : ", ",
+                            cause_name(d, *cause), percent(cause->share),
+                            probability_words(cause->probability));
     return text;
+}
+
+/// " Listed, but not claimed (probability below 0.5): J3.axial (0.11)."
+std::string unclaimed_words(const diagnosis::Diagnosis& d) {
+    std::string text;
+    for (const diagnosis::Cause& cause : d.causes)
+        if (cause.known && !is_claimed(cause))
+            text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", cause_name(d, cause),
+                                probability_words(cause.probability));
+    return text.empty() ? "" : " Listed, but not claimed (probability below 0.5): " + text + ".";
+}
+
+/// The answer where the gap is explained.
+std::string explained_words(const diagnosis::Diagnosis& d) {
+    const Causes causes = claimed_causes(d);
+    if (causes.empty() && is_one_of_rivals(d)) {
+        const bool hardly = is_rather_a_rival(d);
+        return fmt::format("{}{}, {}one of its rivals ({}).",
+                           hardly ? "The cause is hardly " : "Its cause is uncertain: ",
+                           with_probability(d, d.causes.front()), hardly ? "rather " : "or ",
+                           fmt::join(d.causes.front().rivals, ", "));
+    }
+    if (causes.empty()) return "Its cause is uncertain: perhaps " + likeliest(d) + ".";
+    const std::string of_rivals = rivalled(d);
+    const char* begin = causes.size() == 1 ? "The cause is " : "The causes are ";
+    return begin + claimed_words(d) +
+           (of_rivals.empty()
+                ? open_rest(d) + "."
+                : "; these readings cannot tell " + of_rivals + " from its rivals, see below.");
 }
 
 }  // namespace
@@ -103,8 +176,44 @@ std::string cause_name(const diagnosis::Diagnosis& d, const diagnosis::Cause& ca
     const auto alike = std::count_if(d.causes.begin(), d.causes.end(), [&](const auto& other) {
         return other.effect == cause.effect && other.since == cause.since;
     });
-    const std::string form = alike > 1 && !cause.points.empty() ? " as a table" : "";
-    return cause.effect + form + (cause.since.empty() ? "" : " since " + cause.since);
+    const std::string since = cause.since.empty() ? "" : " since " + cause.since;
+    if (alike < 2 || cause.points.empty()) return cause.effect + since;
+    const bool other_table = std::any_of(d.causes.begin(), d.causes.end(), [&](const auto& other) {
+        return &other != &cause && other.effect == cause.effect && !other.points.empty();
+    });
+    return cause.effect + (other_table ? " (" + errors_of(cause) + ')' : " as a table") + since;
+}
+
+std::vector<std::string> unseen_effects(const diagnosis::Diagnosis& d) {
+    const auto is_named = [&](const std::string& name) {
+        return std::any_of(d.causes.begin(), d.causes.end(), [&](const auto& cause) {
+            return cause.effect == name ||
+                   std::find(cause.rivals.begin(), cause.rivals.end(), name) != cause.rivals.end();
+        });
+    };
+    std::vector<std::string> list;
+    for (const std::string& name : d.unseen)
+        if (!is_named(name)) list.push_back(name);
+    return list;
+}
+
+bool is_sure_only_together(const diagnosis::Cause& cause) {
+    constexpr double certain = 2.0;  ///< in sigma
+    std::size_t measured = 0;
+    for (const identification::FitParameter& p : cause.parameters) {
+        if (!std::isfinite(p.sigma) || p.value == 0.0) continue;
+        if (std::abs(p.value) > certain * p.sigma) return false;
+        ++measured;
+    }
+    return is_claimed(cause) && measured > 1;
+}
+
+std::string interval_words(const diagnosis::HeldOut& heldout, const char* unit) {
+    if (heldout.high < -1.0) return "it rather grows to more than twice its size";
+    if (heldout.low < -1.0)
+        return fmt::format("at most {}{}; it may also grow to more than twice its size",
+                           percent(heldout.high), unit);
+    return fmt::format("{} to {}{}", percent(heldout.low), percent(heldout.high), unit);
 }
 
 bool is_only_spoiled(const diagnosis::Diagnosis& d) {
@@ -152,27 +261,31 @@ std::string main_size(const diagnosis::Cause& cause) {
 
 std::string verdict_sentence(const diagnosis::Diagnosis& d) {
     const std::string size = gap_words(d);
-    const std::string first = d.causes.empty() ? "" : cause_name(d, d.causes.front());
+    const std::string of_rivals = rivalled(d);
     const char* where = d.between_places ? "" : " at the measured places";
     switch (d.verdict) {
         case diagnosis::Verdict::no_gap: return "No gap beyond noise: " + size + ".";
-        case diagnosis::Verdict::explained:
-            return fmt::format("The gap is explained{}, {} {}: {}.", where, by_words(d), first,
-                               size);
         case diagnosis::Verdict::ambiguous:
             if (is_rather_a_rival(d))
                 return fmt::format(
-                    "The gap is explained{}, rather by a rival of {} than by it: {}.", where, first,
-                    size);
-            if (rivalled(d) == first)
+                    "The gap is explained{}, rather by a rival of {} than by it: {}.", where,
+                    cause_name(d, d.causes.front()), size);
+            if (is_one_of_rivals(d) ||
+                (!of_rivals.empty() && of_rivals == cause_name(d, d.causes.front())))
                 return fmt::format(
                     "The gap is explained{}, but these readings cannot tell {} from its rivals: "
                     "{}.",
-                    where, first, size);
-            return fmt::format(
-                "The gap is explained{}, {} {}, but these readings cannot tell {} from its "
-                "rivals: {}.",
-                where, by_words(d), first, rivalled(d), size);
+                    where, is_one_of_rivals(d) ? with_probability(d, d.causes.front()) : of_rivals,
+                    size);
+            if (!of_rivals.empty())
+                return fmt::format(
+                    "The gap is explained{}, {}, but these readings cannot tell {} from its "
+                    "rivals: {}.",
+                    where, by_words(d), of_rivals, size);
+            return fmt::format("The gap is explained{}, {}{}: {}.", where, by_words(d),
+                               open_rest(d), size);
+        case diagnosis::Verdict::explained:
+            return fmt::format("The gap is explained{}, {}: {}.", where, by_words(d), size);
         case diagnosis::Verdict::partly_explained:
             return fmt::format("The gap is explained in part: {}.", size);
         case diagnosis::Verdict::unexplained:
@@ -206,32 +319,29 @@ std::string answer(const diagnosis::Diagnosis& d) {
     const std::string size =
         fmt::format("Machine and simulation differ by {} rms; noise alone would make {}. ",
                     size_words(d, d.rms_um), size_words(d, d.noise_um));
-    const std::string causes = causes_words(d);
+    const std::string claimed = claimed_words(d);
     const std::string part = fmt::format("{} %", percent(d.explained));
     switch (d.verdict) {
         case diagnosis::Verdict::explained:
-            return size + (is_sure(d) ? "The cause is " : "The cause is uncertain, perhaps ") +
-                   causes + ". " + shrink_words(d);
         case diagnosis::Verdict::ambiguous:
-            if (d.causes.size() < 2 && is_rather_a_rival(d))
-                return size + "The cause is hardly " + causes + ", rather one of its rivals (" +
-                       fmt::format("{}", fmt::join(d.causes.front().rivals, ", ")) + "). " +
-                       shrink_words(d);
-            if (d.causes.size() < 2)
-                return size + "The cause is " + causes +
-                       ", or another effect that these readings cannot tell from it: see below. " +
-                       shrink_words(d);
-            return size + "The causes are " + causes + "; these readings cannot tell " +
-                   rivalled(d) + " from its rivals, see below. " + shrink_words(d);
+            return size + explained_words(d) +
+                   (claimed.empty() && d.causes.size() == 1 ? "" : unclaimed_words(d)) + ' ' +
+                   shrink_words(d);
         case diagnosis::Verdict::partly_explained:
-            return size + part + " of it is explained: " + causes +
-                   ". The rest has a structure that no known effect explains. ";
+            return size +
+                   (claimed.empty()
+                        ? part + " of it is explained, but by what is uncertain."
+                        : part + " of it is explained. The causes claimed are " + claimed + ".") +
+                   " The rest has a structure that no known effect explains." + unclaimed_words(d);
         default:
-            return size + fmt::format(
-                              "Known effects explain only {} of it on readings that took no part "
-                              "in the fit{}",
-                              part,
-                              causes.empty() ? "." : "; part of it looks like " + causes + ".");
+            return size +
+                   (claimed.empty()
+                        ? "No known effect is claimed as its cause."
+                        : "Known effects explain only " + part +
+                              " of it on readings that took no part in the fit; part of it looks "
+                              "like " +
+                              claimed + ".") +
+                   unclaimed_words(d);
     }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "diagnosis/diagnosis.h"
 
@@ -18,10 +19,16 @@ std::string main_size(const diagnosis::Cause& cause);
 /// A size that is named _um: "12.3 µm", or in µrad where all readings are angles.
 std::string size_words(const diagnosis::Diagnosis& d, double size);
 /// "C.backlash", "C.backlash since friday"; of two causes of one name "Y.straightness as a table"
-/// is the one in free form.
+/// is the one in free form, of two in free form each has its errors: "free form of X (EXX)".
 std::string cause_name(const diagnosis::Diagnosis& d, const diagnosis::Cause& cause);
 /// Probable enough to be said; others are only listed.
 bool is_claimed(const diagnosis::Cause& cause);
+/// Effects that the readings do not determine, without those that are a cause or a rival of one.
+std::vector<std::string> unseen_effects(const diagnosis::Diagnosis& d);
+/// "-27 to 43"; a lower end below -100 tells only that the gap may grow: "at most 44; ..".
+std::string interval_words(const diagnosis::HeldOut& heldout, const char* unit = "");
+/// True of a claimed cause none of whose values is twice its sigma.
+bool is_sure_only_together(const diagnosis::Cause& cause);
 /// True where the gap is nothing but the readings that were set aside: no cause explains or leaves
 /// anything of the others.
 bool is_only_spoiled(const diagnosis::Diagnosis& diagnosis);

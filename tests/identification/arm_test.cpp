@@ -52,6 +52,20 @@ arm::DenavitHartenberg worn() {
 
 }  // namespace
 
+TEST_CASE("an arm that was never calibrated may miss by millimetres", "[identification][arm]") {
+    setup::Setup setup = arm::setup(arm::ur5, 100);
+    setup.model.modelled = {};
+    arm::DenavitHartenberg real = arm::ur5;
+    const auto rms_mm = [&](double off_mm) {
+        real.a_mm[1] = arm::ur5.a_mm[1] + off_mm;
+        const auto poses = measured_by(real, 1.0, random_poses(30, 4), 0.01);
+        return 1e-3 *
+               identification::identify(setup, arm::table(setup, arm::ur5, poses), {}).rms_after_um;
+    };
+    CHECK(rms_mm(5.0) > 1.0);
+    CHECK_THROWS_WITH(rms_mm(50.0), Catch::Contains("wrong units"));  // a wrong frame or unit
+}
+
 TEST_CASE("an arm reads what its Denavit-Hartenberg matrices say", "[identification][arm]") {
     const setup::Setup setup = arm::setup(arm::ur5, 100);
     auto poses = random_poses(30, 4);

@@ -158,6 +158,30 @@ TEST_CASE("a heading of other words names the direction of the tables below it",
             "contradicts the direction 'negative'", 5);
 }
 
+TEST_CASE("a direction in a heading ends with its section", "[imports][ways]") {
+    const setup::Setup setup = import_bench::setup();
+    const std::string list = "target [mm],error [um]\n0,1\n100,2\n200,3\n",
+                      other = "target [mm],error [um]\n0,4\n100,1\n200,2\n",
+                      by_order = "no direction is told: towards +";
+    for (const auto& [first, second] :
+         {std::pair{"## Data backward direction\n\n", "\n## Second day\n\n"},
+          std::pair{"### Data backward direction\n\n", "\n# Second day\n\nAt 3 positions.\n"},
+          std::pair{"Backward sequence\n", "\nSecond day\n"},
+          std::pair{"# Data backward direction\n\n# Second day\n\n", "\n"}}) {
+        INFO(first << second);
+        CHECK(has(imported(setup, {iso, first + list + second + other, {"axis=X"}, ""}).notes,
+                  by_order));
+    }
+    for (const auto& [first, second] :
+         {std::pair{"# Backward travel\n\n## Sensor one\n\n", "\n## Sensor two\n\n"},
+          std::pair{"# Backward travel\n# of the stage\n\n", "\nAt 3 positions.\n"}}) {
+        INFO(first << second);
+        CHECK_FALSE(has(imported(setup, {iso, first + list + second + other, {"axis=X"}, ""}).notes,
+                        by_order));
+        CHECK(sides(first + list + second + other, {"axis=X"}) == std::set<int>{-1});
+    }
+}
+
 TEST_CASE("a direction that only the order of the targets tells is told", "[imports][ways]") {
     const setup::Setup setup = import_bench::setup();
     const std::string rising = "0,1,1\n100,2,2\n200,3,3\n", falling = "200,3,3\n100,2,2\n0,1,1\n";

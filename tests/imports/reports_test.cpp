@@ -212,3 +212,42 @@ TEST_CASE("results are the readings of a file without others", "[imports][report
     CHECK(read_rows(setup, {iso, table + "# Mean temperature 20.5\n" + warmer, {"axis=X"}, ""})
               .size() == 8);
 }
+
+TEST_CASE("what a report tells of other things is no test of the axis", "[imports][reports]") {
+    const setup::Setup setup = import_bench::setup();
+    const std::string head =
+        "i |tgt_pos(i) [mm]|ref_pos(i,1) [mm]|ref_pos(i,2) [mm]|\n--- |--- |--- |--- |\n";
+    const std::string readings =
+        "# Stage test\n\n## Data forward direction\n\n" + head +
+        "1|10.0|10.003|10.004|\n2|20.0|20.001|20.002|\n3|30.0|29.997|29.996|\n\n"
+        "## Data backward direction\n\n" +
+        head + "1|10.0|10.013|10.012|\n2|20.0|20.009|20.011|\n3|30.0|29.991|29.992|\n\n";
+    const std::string results =
+        "## Calculations\n\n### Deviation backward direction\n\n"
+        "i |x(i,1) [mm]|x(i,2) [mm]|x_avg(i) [mm]|\n--- |--- |--- |--- |\n"
+        "1|.013|.012|.0125|\n2|.009|.011|.010|\n3|-.009|-.008|-.0085|\n\n";
+    const std::string expected = rows_of(readings);
+    for (const std::string columns :
+         {"Test | Setpoint [mm] | Resolver AVG[mm] | Diff [mm] | Resolver STD[mm]\n",
+          "Test | Setpoint [mm] | Resolver [mm] | Diff [mm] | Turn []\n"}) {
+        const std::string others =
+            "# Resolver Performance\n\n## Over one turn\nAt 3 positions.\n\n" + columns +
+            "--- | --- | --- | --- | --- |\n1 | 12.0 | 11.9 | -.1 | .02\n"
+            "2 | 14.0 | 13.8 | -.2 | .03\n3 | 16.0 | 15.9 | -.1 | .02\n";
+        INFO(columns);
+        CHECK(rows_of(readings + results + others) == expected);
+        CHECK(has(imported(setup, {iso, readings + results + others, {"axis=X"}, ""}).notes,
+                  "('Over one turn') is no test of the axis as the others of this file are"));
+        // Alone it is what the file has; the axis that is told above it is its own.
+        CHECK(read_rows(setup, {iso, others, {"axis=X"}, ""}).size() == 3);
+        const auto all =
+            read_rows(setup, {iso, "Axis: X\n" + readings + "Axis: Y\n" + others, {}, ""});
+        CHECK(all.back().test == "Y");
+    }
+    // Lists beside lists: means, and what a sensor of the axis reads.
+    const std::string list = "# Laser\ntarget [mm],error [um]\n0,1\n100,2\n200,3\n";
+    for (const std::string more :
+         {"# Summed up\ntarget [mm],error [um],avg [um]\n0,1,2\n100,2,3\n200,4,3\n",
+          "# Resolver\ntarget [mm],error [um]\n0,2\n100,5\n200,4\n"})
+        CHECK(rows_of(list + more) == rows_of(list));
+}

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "report/diagnosis_json.h"
 #include "report/diagnosis_text.h"
 #include "report/diagnosis_words.h"
 
@@ -101,6 +102,74 @@ TEST_CASE("of two causes of one name the one in free form is said to be a table"
                    Catch::Contains("<h3>C.backlash as a table</h3>"));
     d.causes.erase(d.causes.begin());
     CHECK(report::cause_name(d, d.causes[0]) == "C.backlash");
+    // Two in free form are told apart by their errors.
+    d.causes = {table, table};
+    d.causes[1].points = {{"EXX", 0.0, 1e-5, 1e-6, "mm", "mm"},
+                          {"EYX", 0.0, 1e-5, 1e-6, "mm", "mm"}};
+    CHECK(report::cause_name(d, d.causes[0]) == "C.backlash (gap)");
+    CHECK(report::cause_name(d, d.causes[1]) == "C.backlash (EXX, EYX)");
+}
+
+TEST_CASE("the page shows each probability, and what is not claimed explains nothing") {
+    diagnosis::Diagnosis d = one_cause();
+    d.causes[0].rivals.clear();
+    diagnosis::Cause faint = d.causes[0];
+    faint.effect = "J3.axial";
+    faint.probability = 0.11;
+    faint.share = 0.21;
+    d.causes.push_back(faint);
+    const char* listed = "Listed, but not claimed (probability below 0.5): J3.axial (0.11).";
+    for (const auto verdict :
+         {diagnosis::Verdict::explained, diagnosis::Verdict::ambiguous,
+          diagnosis::Verdict::partly_explained, diagnosis::Verdict::unexplained}) {
+        d.verdict = verdict;
+        CHECK_THAT(report::answer(d), Catch::Contains("C.backlash (93 %, probability 0.60)") &&
+                                          Catch::Contains(listed) &&
+                                          !Catch::Contains("J3.axial (21 %"));
+    }
+    d.causes[1].rivals = {"J3.zero"};
+    d.verdict = diagnosis::Verdict::ambiguous;
+    const char* rest = "; for the rest these readings cannot tell J3.axial from its rivals";
+    CHECK_THAT(report::verdict_sentence(d), Catch::Contains("by C.backlash" + std::string(rest)));
+    CHECK_THAT(report::answer(d), Catch::Contains(rest));
+    const std::string html = report::diagnosis_page(d, "r.csv").body_html;
+    CHECK_THAT(html, Catch::Contains("<th>Probability</th>") && Catch::Contains("<td>0.60</td>") &&
+                         Catch::Contains("<td>0.11<br><span class=\"note\">not claimed") &&
+                         Catch::Contains("Probability 0.11, not claimed.") &&
+                         Catch::Contains("21 %, not claimed"));
+    d.causes.erase(d.causes.begin());
+    d.causes[0].rivals.clear();
+    d.verdict = diagnosis::Verdict::unexplained;
+    CHECK_THAT(report::answer(d), Catch::Contains("No known effect is claimed") &&
+                                      Catch::Contains(listed) && !Catch::Contains("looks like"));
+    d.verdict = diagnosis::Verdict::partly_explained;
+    CHECK_THAT(report::answer(d), Catch::Contains("but by what is uncertain"));
+    for (const auto verdict : {diagnosis::Verdict::explained, diagnosis::Verdict::ambiguous}) {
+        d.verdict = verdict;
+        CHECK_THAT(report::answer(d),
+                   Catch::Contains("uncertain: perhaps J3.axial (probability 0.11)"));
+        CHECK_THAT(report::verdict_sentence(d), Catch::Contains("but by what is uncertain"));
+    }
+}
+
+TEST_CASE("where nothing is claimed, a cause and its rivals are alternatives") {
+    diagnosis::Diagnosis d = one_cause();
+    d.causes[0].probability = 0.4;
+    CHECK_THAT(report::verdict_sentence(d),
+               Catch::Contains("cannot tell C.backlash (probability 0.40) from its rivals"));
+    CHECK_THAT(
+        report::answer(d),
+        Catch::Contains("uncertain: C.backlash (probability 0.40), or one of its rivals (C"));
+}
+
+TEST_CASE("what is a cause or a rival is not said to be unseen") {
+    diagnosis::Diagnosis d = one_cause();
+    d.unseen = {"C.backlash", "C.zero & co", "X.scale"};
+    CHECK_THAT(report::diagnosis_page(d, "r.csv").body_html,
+               Catch::Contains("<dt>Not to be seen here</dt><dd>X.scale.</dd>"));
+    CHECK_THAT(report::diagnosis_json(d), Catch::Contains("\"unseen\": [\n  \"X.scale\"\n ]"));
+    d.unseen.pop_back();
+    CHECK_THAT(report::diagnosis_page(d, "r.csv").body_html, !Catch::Contains("Not to be seen"));
 }
 
 TEST_CASE("an improbable cause is not said to be the cause: its rivals are") {

@@ -103,6 +103,66 @@ TEST_CASE("a cause that is no better alone has no shrink of its own") {
     CHECK_THAT(report::diagnosis_text(d), Catch::Contains("no better by this alone"));
     d.causes.front().heldout.shrink = 0.5;
     CHECK_THAT(report::diagnosis_text(d), Catch::Contains("shrinks by 50 %"));
+    d.causes.front().heldout.shrink = -0.1;
+    d.causes.front().probability = 0.9;
+    d.causes.push_back(d.causes.front());
+    CHECK_THAT(report::diagnosis_text(d),
+               Catch::Contains("no better by this alone, only together with others"));
+}
+
+TEST_CASE("an interval below -100 % says in words that the gap may grow") {
+    diagnosis::Diagnosis d = with_parameters({});
+    d.after.shrink = 0.2;
+    d.after.low = -146.0;
+    d.after.high = 0.44;
+    CHECK_THAT(report::diagnosis_text(d),
+               !Catch::Contains("14600") && Catch::Contains("at most 44; it may also"));
+    CHECK_THAT(report::answer(d), Catch::Contains("20 % (at most 44 %; it may also grow to more"));
+    d.after.low = -0.4;
+    CHECK(report::interval_words(d.after) == "-40 to 44");
+    d.after.low = d.after.high = -3.0;
+    CHECK_THAT(report::interval_words(d.after), Catch::Contains("it rather grows"));
+}
+
+TEST_CASE("a setup without the causes is not said to shrink the gap by them") {
+    diagnosis::Diagnosis d = with_parameters({});
+    d.after.shrink = 0.12;
+    d.writes_causes = false;
+    CHECK_THAT(report::diagnosis_text(d), Catch::Contains("has none of them; with it") &&
+                                              !Catch::Contains("the causes explain"));
+    d.causes.front().probability = 0.9;
+    CHECK_THAT(report::diagnosis_text(d), Catch::Contains("the causes explain"));
+}
+
+TEST_CASE("what one measurement tells apart stands in one entry") {
+    diagnosis::Diagnosis d = with_parameters({});
+    d.next.clear();
+    const auto add = [&](const std::string& first, const std::string& second, const char* begin,
+                         const char* end) {
+        d.next.push_back(
+            {first, second, begin + first + " from " + second + end, "", 0.0, 0.0, false});
+    };
+    add("B.tilt", "B.axial", "to tell ", ": touch a sphere");
+    add("C.radial", "C.axial", "to tell ", ": find spheres");
+    add("B.tilt", "C.axial", "to tell ", ": touch a sphere");
+    add("X.scale", "X.angular", "to tell ", ": touch a sphere");
+    add("A.tilt", "A.zero", "no ready measurement tells ", " at this size");
+    add("A.tilt", "A.axial", "no ready measurement tells ", " at this size");
+    const std::string text = report::diagnosis_text(d);
+    CHECK_THAT(text, Catch::Contains("next: to tell B.tilt from B.axial, C.axial; X.scale from "
+                                     "X.angular: touch a\n  sphere\n"));
+    CHECK_THAT(text, Catch::Contains("next: to tell C.radial from C.axial: find spheres\n"));
+    CHECK_THAT(text, Catch::Contains("tells A.tilt from A.zero, A.axial at this size\n"));
+}
+
+TEST_CASE("values that are none of them certain are said to be so") {
+    diagnosis::Diagnosis d =
+        with_parameters({parameter("cos1_rad", 4e-4, 1e-3), parameter("sin1_rad", -8e-4, 1.3e-3)});
+    d.causes.front().probability = 0.94;
+    const std::string words = "none of these values is certain by itself";
+    CHECK_THAT(report::diagnosis_text(d), Catch::Contains(words));
+    d.causes.front().parameters[0].sigma = 1e-4;
+    CHECK_THAT(report::diagnosis_text(d), !Catch::Contains(words));
 }
 
 TEST_CASE("a verdict says where it holds, and does not name for sure what is not") {
