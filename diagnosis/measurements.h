@@ -17,6 +17,7 @@ struct Measurement {
     records::ReadingTable table;
     double minutes = 0.0;
     std::optional<setup::Setup> setup = {};  ///< of its rows, if it is not the present one
+    bool other_instrument = false;           ///< its rows do not have the gain of the present one
 };
 
 /// All measurements possible with this machine and its artefacts. `start_s`: start time on the

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <memory>
+#include <set>
 
 #include "diagnosis/measurement_repeats.h"
 #include "diagnosis/rules.h"
@@ -70,14 +72,20 @@ Worked work_out(Measurement m, const setup::Setup& present, const effects::Catal
     return w;
 }
 
+bool is_gain(const ColumnGroup& group) {
+    return group.effect && group.effect->kind == effects::EffectKind::sensor_gain;
+}
+
 Eigen::MatrixXd effect_block(const Worked& w, const ColumnGroup& group) {
-    return whitened(*w.whitener, columns_on(*w.replay, w.gradient, group));
+    Eigen::MatrixXd columns = columns_on(*w.replay, w.gradient, group);
+    if (w.measurement.other_instrument && is_gain(group)) columns.setZero();
+    return whitened(*w.whitener, std::move(columns));
 }
 
 /// The rival with all its linear parameters, those beside its textbook form too: a prediction that
-/// gave it fewer would promise more than the measurement holds.
+/// gave it fewer would promise more than the measurement holds. The gain is that of one instrument.
 ColumnGroup with_all_parameters(ColumnGroup rival) {
-    if (!rival.effect) return rival;  // a table
+    if (!rival.effect || is_gain(rival)) return rival;  // or a table
     rival.parameters.clear();
     for (std::size_t j = 0; j < rival.effect->parameters.size(); ++j)
         if (!rival.effect->parameters[j].is_key()) rival.parameters.push_back(j);
@@ -155,11 +163,12 @@ struct Present {
     Block block;
 };
 
-/// What an instrument does to its own readings shows in no repeat of them.
+/// What an encoder does to its own readings shows in no repeat of them.
 std::string without_measurement(const std::string& first, const std::string& second) {
     const auto of_sensor = [](const std::string& name) { return name.starts_with("sensor."); };
     if (of_sensor(first) != of_sensor(second))
-        return fmt::format("to tell {} from {}: measure with a second instrument", first, second);
+        return fmt::format("to tell {} from {}: measure with a second instrument, {}", first,
+                           second, import_of_second_instrument);
     return fmt::format("no ready measurement tells {} from {} at this size", first, second);
 }
 
@@ -173,28 +182,99 @@ bool shows_more(const Worked& w, double more, double before, const Present& pres
     return more > least * once_more;
 }
 
+/// Values of a key that the search may choose when the new readings are there: finer than the grid,
+/// and beyond it, because the time that all readings take grows.
+std::vector<double> values_of_key(const effects::EffectParameter& key) {
+    if (!key.refine) return key.grid;
+    std::vector<double> values;
+    for (std::size_t k = 0; k + 1 < key.grid.size(); ++k)
+        for (const double part : {0.0, 0.25, 0.5, 0.75})
+            values.push_back(key.grid[k] + part * (key.grid[k + 1] - key.grid[k]));
+    for (const double more : {1.0, 1.5, 2.0, 4.0}) values.push_back(more * key.grid.back());
+    return values;
+}
+
+/// The rival with its present keys, and with all others that are searched again; those of a ripple,
+/// which are many, stay.
+std::vector<ColumnGroup> forms_of(const ColumnGroup& rival) {
+    constexpr std::size_t most = 64;
+    std::vector<ColumnGroup> forms{with_all_parameters(rival)};
+    if (!rival.effect) return forms;
+    for (std::size_t j = 0; j < rival.effect->parameters.size(); ++j) {
+        const effects::EffectParameter& key = rival.effect->parameters[j];
+        if (!key.is_key()) continue;
+        const std::vector<double> values = values_of_key(key);
+        const std::size_t before = forms.size();
+        if (before * (values.size() + 1) > most) continue;
+        for (std::size_t k = 0; k < before; ++k)
+            for (const double value : values) {
+                forms.push_back(forms[k]);
+                forms.back().keys[j] = value;
+            }
+    }
+    return forms;
+}
+
+/// A form of the rival, and what it does to the present readings.
+struct RivalForm {
+    ColumnGroup group;
+    Mimic now;
+};
+
+/// The forms of a pair's rival beside the claimed cause.
+class Rivalry {
+  public:
+    Rivalry(const AmbiguousPair& pair, const Present& present) : pair_(pair) {
+        const auto columns = [&](const ColumnGroup& group) {
+            return whitened(present.whitener, columns_on(present.prepared.replay,
+                                                         present.prepared.base.gradient, group));
+        };
+        const Eigen::VectorXd target = columns(*pair.claimed) * pair.values;
+        for (ColumnGroup& group : forms_of(*pair.rival)) {
+            const Eigen::MatrixXd rival = columns(group);
+            forms_.push_back({std::move(group), Mimic(rival.cols())});
+            forms_.back().now.add(present.block, rival, target);
+        }
+    }
+
+    /// What the best form of the rival loses now.
+    double before() const {
+        double least = std::numeric_limits<double>::infinity();
+        for (const RivalForm& form : forms_) least = std::min(least, form.now.left());
+        return least;
+    }
+    /// What it will lose with the new readings, and the contribution of the cause then.
+    std::pair<double, double> after(const Worked& w) const {
+        const Eigen::VectorXd target = effect_block(w, *pair_.claimed) * pair_.values;
+        double least = std::numeric_limits<double>::infinity(), contribution = 0.0;
+        for (const RivalForm& form : forms_) {
+            Mimic then = form.now;
+            then.add(w.block, effect_block(w, form.group), target);
+            const double left = then.left();
+            if (left < least) contribution = then.left_by_base();
+            least = std::min(least, left);
+        }
+        return {least, contribution};
+    }
+
+  private:
+    const AmbiguousPair& pair_;
+    std::vector<RivalForm> forms_;
+};
+
 NextMeasurement best_for(const AmbiguousPair& pair, const std::vector<Worked>& list,
                          const Present& present) {
-    const auto columns = [&](const ColumnGroup& group) {
-        return whitened(present.whitener,
-                        columns_on(present.prepared.replay, present.prepared.base.gradient, group));
-    };
-    const ColumnGroup rival_group = with_all_parameters(*pair.rival);
-    const Eigen::MatrixXd rival = columns(rival_group);
-    Mimic now(rival.cols());
-    now.add(present.block, rival, columns(*pair.claimed) * pair.values);
-    const double before = now.left();
+    const Rivalry rivalry(pair, present);
+    const double before = rivalry.before();
     NextMeasurement best{pair.claimed->name, pair.rival->name, "", "", 0.0, 0.0};
     double rate = 0.0;
     for (const Worked& w : list) {
-        Mimic then = now;
-        then.add(w.block, effect_block(w, rival_group),
-                 effect_block(w, *pair.claimed) * pair.values);
-        const double lost = then.left(), gain = 0.5 * (lost - before);
+        const auto [lost, contribution] = rivalry.after(w);
+        const double gain = 0.5 * (lost - before);
         if (gain < 3.0 || !shows_more(w, lost - before, before, present)) continue;
         // Degree of separation for each minute; beyond full separation there is no further benefit.
         const double settled =
-            std::min(1.0, lost / (settled_margin * rules::rival_limit(then.left_by_base())));
+            std::min(1.0, lost / (settled_margin * rules::rival_limit(contribution)));
         if (settled * settled / w.measurement.minutes <= rate) continue;
         rate = settled * settled / w.measurement.minutes;
         best.log_bayes_factor = gain;
@@ -208,6 +288,18 @@ NextMeasurement best_for(const AmbiguousPair& pair, const std::vector<Worked>& l
     }
     if (best.text.empty()) best.text = without_measurement(best.first, best.second);
     return best;
+}
+
+/// A cause may be claimed as a table and in its textbook form. What one of them asks for is taken
+/// for both: that nothing is ready for the other would contradict it.
+void drop_told(std::vector<NextMeasurement>& plan) {
+    const auto asks = [](const NextMeasurement& n) { return n.minutes > 0.0; };
+    std::set<std::pair<std::string, std::string>> asked;
+    for (const NextMeasurement& n : plan)
+        if (asks(n)) asked.emplace(n.first, n.second);
+    std::erase_if(plan, [&](const NextMeasurement& n) {
+        return !asks(n) && asked.contains({n.first, n.second});
+    });
 }
 
 }  // namespace
@@ -237,6 +329,7 @@ std::vector<NextMeasurement> plan_next(const Prepared& prepared, const NoiseMode
         if (stopped()) break;
         plan.push_back(best_for(pair, list, present));
     }
+    drop_told(plan);
     std::stable_sort(plan.begin(), plan.end(),
                      [](const NextMeasurement& a, const NextMeasurement& b) {
                          return a.log_bayes_factor > b.log_bayes_factor;

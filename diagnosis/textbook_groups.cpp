@@ -81,11 +81,22 @@ double log_prior_of_keys(const effects::Effect& effect, const std::vector<double
     return sum;
 }
 
+/// Each of several instruments is wrong by itself: all of them alike are no form of the effect.
+bool has_own_gains(const effects::Effect& effect) {
+    return effect.kind == effects::EffectKind::sensor_gain && effect.parameters.size() > 1;
+}
+
 }  // namespace
 
 std::vector<std::function<bool(const effects::EffectParameter&)>> simpler_forms(
     const effects::Effect& effect) {
     std::vector<Takes> forms;
+    if (has_own_gains(effect)) {
+        for (const effects::EffectParameter& gain : effect.parameters)
+            forms.push_back(
+                [name = gain.name](const effects::EffectParameter& p) { return p.name == name; });
+        return forms;
+    }
     std::set<std::string> vectors;
     for (const effects::EffectParameter& p : effect.parameters) {
         if (p.component >= 0 && !p.is_key()) vectors.insert(p.name);
@@ -213,17 +224,20 @@ void add_forms(Design& design, const Prepared& prepared, const EffectColumns& re
         since.before.empty() &&
         std::any_of(parameters.begin(), parameters.end(),
                     [](const effects::EffectParameter& q) { return q.mean_line; });
+    // The forms of an effect share its prior; instruments are wrong one by one.
+    const bool own_gains = has_own_gains(*ready.effect);
+    const double shared = own_gains ? 0.0 : std::log(1.0 + static_cast<double>(forms.size()));
     const auto add = [&](const Takes& takes) {
         ColumnGroup group =
             group_of(*ready.effect, ready.effect->zeros(), ready.material, ready.first, takes);
         if (has_mean_line && !takes) take_bow_from_mean_line(prepared, group);
-        group.log_prior = log_prior - std::log(1.0 + static_cast<double>(forms.size()));
+        group.log_prior = log_prior - shared;
         group.since = since.session;
         group.before = since.before;
         if (group.is_change()) group.name += " since " + since.session;
         if (group.columns() > 0) design.add(std::move(group));
     };
-    add({});
+    if (!own_gains) add({});
     for (const Takes& takes : forms) add(takes);
 }
 

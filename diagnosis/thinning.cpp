@@ -15,9 +15,34 @@ using records::Device;
 /// a turn is kept.
 constexpr std::size_t least_of_pass = 120;
 
+/// A device that reads all the time; the others are read once for each place by hand or program.
+bool is_stream(Device device) {
+    return device == Device::ballbar || device == Device::axis;
+}
+
 bool is_pass(Device device) {
-    return device == Device::ballbar || device == Device::axis || device == Device::linear ||
-           device == Device::angle;
+    return is_stream(device) || device == Device::linear || device == Device::angle;
+}
+
+/// One row of how many is kept.
+struct Steps {
+    std::size_t streams = 1, places = 1;
+
+    std::size_t of(Device device) const { return is_stream(device) ? streams : places; }
+};
+
+/// Places are rare and dear: up to half of `most`, or what streams leave, all of them stay.
+Steps steps_for(const records::ReadingTable& table, std::size_t most) {
+    std::size_t streams = 0, places = 0;
+    for (const records::Reading& row : table.rows)
+        if (row.device != Device::none) ++(is_stream(row.device) ? streams : places);
+    const auto step = [](std::size_t rows, std::size_t room) {
+        return rows == 0 ? 1 : (rows + room - 1) / std::max<std::size_t>(1, room);
+    };
+    Steps steps;
+    steps.places = step(places, std::max(most / 2, most - std::min(most, streams)));
+    steps.streams = step(streams, most - places / steps.places);
+    return steps;
 }
 
 /// A reproducible pseudo-random index in 0..n-1.
@@ -35,7 +60,7 @@ bool same_pose(const records::ReadingTable& table, const records::Reading& a,
 
 class Thinner {
   public:
-    Thinner(const records::ReadingTable& table, std::size_t step) : table_(table), step_(step) {
+    Thinner(const records::ReadingTable& table, const Steps& steps) : table_(table), steps_(steps) {
         for (const records::Reading& row : table.rows)
             if (is_pass(row.device)) ++length_[row.test];
     }
@@ -56,7 +81,7 @@ class Thinner {
     void add_of_pass(const records::Reading& row) {
         const std::size_t count = seen_[row.test]++;
         const std::size_t step =
-            std::clamp<std::size_t>(length_[row.test] / least_of_pass, 1, step_);
+            std::clamp<std::size_t>(length_[row.test] / least_of_pass, 1, steps_.of(row.device));
         if (count > 0 && count % step != scattered(count / step, step)) {
             waiting_.clear();
             return;
@@ -67,10 +92,10 @@ class Thinner {
     void add_of_pose(const records::Reading& row) {
         if (!pose_ || !same_pose(table_, *pose_, row)) {
             ++poses_;
-            if (poses_ % step_ != 0) waiting_.clear();
+            if (poses_ % steps_.places != 0) waiting_.clear();
         }
         pose_ = &row;
-        if (poses_ % step_ == 0) return keep(row);
+        if (poses_ % steps_.places == 0) return keep(row);
         waiting_.push_back(row);
         waiting_.back().device = Device::none;
         waiting_.back().value_mm.reset();
@@ -83,7 +108,8 @@ class Thinner {
     }
 
     const records::ReadingTable& table_;
-    std::size_t step_, poses_ = static_cast<std::size_t>(-1);
+    Steps steps_;
+    std::size_t poses_ = static_cast<std::size_t>(-1);
     const records::Reading* pose_ = nullptr;
     std::map<std::string, std::size_t> seen_, length_;  ///< rows of each pass: so far, in total
     std::vector<records::Reading> kept_, waiting_;
@@ -127,9 +153,9 @@ std::optional<records::ReadingTable> thinned(const records::ReadingTable& table,
     fewer.axes = table.axes;
     fewer.names = table.names;
     fewer.optional_columns = table.optional_columns;
-    const std::size_t step = (all + most - 1) / most;
-    fewer.rows = has_log(table) ? Thinner(with_told_motion(table), step).rows()
-                                : Thinner(table, step).rows();
+    const Steps steps = steps_for(table, most);
+    fewer.rows = has_log(table) ? Thinner(with_told_motion(table), steps).rows()
+                                : Thinner(table, steps).rows();
     return fewer;
 }
 

@@ -137,7 +137,7 @@ Catalogue make_catalogue(const setup::Setup& setup, const DataExtent& extent) {
     list.push_back(control_rounding(chain));
     if (basic) list.push_back(control_chord(chain));
     list.push_back(clamp_shift(chain));
-    list.push_back(sensor_gain());
+    list.push_back(sensor_gain(setup.instruments));
     list.push_back(machine_expansion(chain));
     if (std::any_of(chain.tool.begin(), chain.tool.end(),
                     [](const kinematics::AxisGeometry& axis) { return axis.rotary; })) {

@@ -56,7 +56,7 @@ Effect control_rounding(const kinematics::Chain& chain);
 Effect control_chord(const kinematics::Chain& chain);
 Effect clamp_shift(const kinematics::Chain& chain);
 Effect linear_play_load(const kinematics::AxisGeometry& axis);
-Effect sensor_gain();
+Effect sensor_gain(const std::vector<setup::Instrument>& instruments);
 /// Three effects of chains with a rotary axis on the tool side (required there).
 Effect gravity_tool(const kinematics::Chain& chain, const CarriedTool& tool);
 Effect chain_collimation(const kinematics::Chain& chain);

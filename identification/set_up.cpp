@@ -25,7 +25,8 @@ Used used_by(const emulator::Replay& replay, std::size_t session) {
         const emulator::Contact& contact = replay.contact(i);
         const bool bar = contact.device == records::Device::ballbar;
         used.artefacts.insert(contact.artefact);
-        used.instruments.insert(contact.instrument);
+        if (contact.device == records::Device::point)  // others have no pose
+            used.instruments.insert(contact.instrument);
         if (contact.extension_mm != 0.0) used.extensions.insert({!bar, contact.extension_mm});
         if (contact.device == records::Device::axis) used.encoders.insert(contact.axis);
         used.bar = used.bar || bar;

@@ -48,6 +48,7 @@ Facts::Facts(const std::vector<std::string>& told) {
         if (!known_keys().contains(key)) throw InputError("--with: unknown key '" + key + "'");
         if (has(key)) throw InputError("--with: '" + key + "' is given twice");
         facts_[key] = records::without_blanks(std::string_view(text).substr(equal + 1));
+        told_.insert(key);
     }
 }
 

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ class Facts {
     Facts with_head_of(const TextTable& table) const;
 
     bool has(const std::string& key) const { return facts_.contains(key); }
+    bool is_told(const std::string& key) const { return told_.contains(key); }  ///< by `--with`
     std::string text(const std::string& key, const std::string& otherwise = "") const;
     /// A number above 0; throws InputError for any other text.
     std::optional<double> positive(const std::string& key) const;
@@ -29,6 +31,7 @@ class Facts {
 
   private:
     std::map<std::string, std::string> facts_;
+    std::set<std::string> told_;
 };
 
 /// The axis named `name` ("X", "x", "X1", "X-axis", "J1"); empty when the machine does not have it.

@@ -47,6 +47,8 @@ records::ReadingTable head_of(const setup::Setup& setup, const std::string& kind
     head.comment = {{"schema", "trunnion.readings/1"}, {"source", "real"}, {"import", kind}};
     for (const kinematics::AxisGeometry& axis : setup.machine.chain.axes())
         head.axes.push_back(axis.axis);
+    const bool named = std::find(columns.begin(), columns.end(), "instrument") != columns.end();
+    if (!setup.instruments.empty() && !named) columns.emplace_back("instrument");
     head.optional_columns = std::move(columns);
     for (const char* more : {"session", "source"}) head.optional_columns.emplace_back(more);
     return head;
@@ -67,8 +69,18 @@ void RowWriter::begin_file(const std::string& path, const Facts& facts) {
     name_ = file_name_of(path_);
     session_ = facts.text("session");
     if (session_ == "each") session_ = session_of(path);
+    instrument_ = instrument_of(facts);
     begins_ = true;
     dated_ = false;
+}
+
+/// A remark above a table may name an instrument that the setup does not have.
+std::string RowWriter::instrument_of(const Facts& facts) const {
+    const std::string name = facts.text("instrument");
+    if (setup_.find_instrument(name)) return name;
+    if (facts.is_told("instrument"))
+        throw InputError("the setup has no [[instrument]] named '" + name + "'", {setup_.path});
+    return "";
 }
 
 /// The name of the file without its ending; of a second file with that name another one.
@@ -116,6 +128,7 @@ void RowWriter::add_column(const std::string& name) {
 
 void RowWriter::add(records::Reading row, int line, const std::string& more) {
     if (row.session.empty()) row.session = session_;
+    if (row.instrument.empty()) row.instrument = instrument_;
     if (row.session.empty() && dated_) row.session = day_of_row(row.time_s);
     const bool restarts = begins_ || row.session != last_session_;
     if (index_ == 0)

@@ -16,7 +16,8 @@ namespace trunnion::imports {
 /// readings.
 class RowWriter {
   public:
-    /// `columns`: optional columns used by this import (source and, if given, session are added).
+    /// `columns`: optional columns used by this import (source, if given session, and the
+    /// instrument if the setup has any, are added). `setup` must outlive the writer.
     RowWriter(const setup::Setup& setup, const std::string& kind, std::vector<std::string> columns,
               bool directions, bool degrees);
     /// Adds a last column that readings do not have: the block of a program. Call it before the
@@ -24,8 +25,9 @@ class RowWriter {
     void add_column(const std::string& name);
 
     /// The following rows belong to this file: to the session named by `session=`, with
-    /// `session=each` after the file. A clock that restarts at zero continues one minute
-    /// after the last row.
+    /// `session=each` after the file, and to the [[instrument]] named by `instrument=`; throws
+    /// InputError when the setup has none of the told name. A clock that restarts at zero continues
+    /// one minute after the last row.
     void begin_file(const std::string& path, const Facts& facts);
     void begin_file(const TextTable& table, const Facts& facts) { begin_file(table.path(), facts); }
     /// Times of this file are seconds since 1970: a pause of four hours starts a new session named
@@ -50,10 +52,11 @@ class RowWriter {
     std::set<std::string> declared_;
     records::ReadingTable head_;
     records::ReadingWriter writer_;
-    std::string text_, path_, name_, session_, last_session_;
+    std::string text_, path_, name_, session_, last_session_, instrument_;
     std::map<std::string, std::string> sessions_;  ///< of files, with `session=each`
     int index_ = 0;
     std::string session_of(const std::string& path);
+    std::string instrument_of(const Facts& facts) const;
     std::string day_of_row(double time_s);
 
     bool begins_ = false, dated_ = false, has_column_ = false;

@@ -41,6 +41,27 @@ records::ReadingTable laser_lines(const std::vector<Axis>& axes) {
     return table;
 }
 
+setup::Setup with_two_lasers() {
+    setup::Setup setup = mill();
+    for (const char* name : {"old", "new"}) setup.instruments.emplace_back().name = name;
+    return setup;
+}
+
+/// The lines once by each laser.
+records::ReadingTable by_two_lasers(const std::vector<Axis>& axes) {
+    records::ReadingTable table = laser_lines(axes);
+    const std::size_t count = table.rows.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        records::Reading row = table.rows[i];
+        row.index += static_cast<int>(count);
+        row.time_s += 10.0 * static_cast<double>(count);
+        row.test += " again";
+        row.instrument = "new";
+        table.rows.push_back(row);
+    }
+    return table;
+}
+
 diagnosis::Diagnosis diagnosed(const std::string& truth, const std::vector<Axis>& axes) {
     const setup::Setup known = mill();
     return diagnosis::diagnose(
@@ -66,6 +87,23 @@ TEST_CASE("equal scales of three axes are the machine's stretch or the instrumen
         CHECK(d.verdict == diagnosis::Verdict::ambiguous);
         REQUIRE_FALSE(d.next.empty());
         CHECK(d.next.front().text.find("second instrument") != std::string::npos);
+    }
+}
+
+TEST_CASE("a second laser tells the machine's stretch from the first one's gain",
+          "[diagnosis][equal_scales]") {
+    const setup::Setup known = with_two_lasers();
+    const records::ReadingTable lines = by_two_lasers({Axis::X, Axis::Y, Axis::Z});
+    for (const char* truth :
+         {"machine.expansion: stretch_ppm=30", "sensor.gain: gain_old_ppm=30"}) {
+        const diagnosis::Diagnosis d = diagnosis::diagnose(
+            known, campaign::measured(campaign::with_effect(known, truth), lines, 5));
+        INFO(truth << '\n' << said(d));
+        REQUIRE(d.causes.size() == 1);
+        CHECK(d.causes.front().effect == std::string(truth, std::string(truth).find(':')));
+        CHECK(d.causes.front().probability > 0.9);
+        CHECK(d.causes.front().rivals.empty());
+        CHECK(d.verdict == diagnosis::Verdict::explained);
     }
 }
 

@@ -281,4 +281,26 @@ TEST_CASE("ambiguous, measured as asked, diagnosed together: the right one is cl
     }
 }
 
+// 14,000 readings are thinned; the few touches that were asked for must not be.
+TEST_CASE("what is asked for after a long ballbar test settles the matter", "[diagnosis][next]") {
+    const setup::Setup known = campaign::bc_setup();
+    const setup::Setup real =
+        campaign::with_effect(known, "C.radial: EXC_cos1_mm=0.004, EYC_sin1_mm=0.004");
+    records::ReadingTable bar = campaign::empty_table(known);
+    campaign::add_ballbar(bar, known, 600);
+    REQUIRE(bar.rows.size() > 10000);
+    const records::ReadingTable first = campaign::measured(real, bar, 11);
+    const diagnosis::Diagnosis before = diagnosis::diagnose(known, first);
+    REQUIRE_FALSE(before.causes.empty());
+    CHECK(before.causes.front().rivals == std::vector<std::string>{"C.tilt"});
+    REQUIRE_FALSE(before.next.empty());
+    CHECK(before.next.front().settles);
+    const records::ReadingTable second = run_measurement(real, before.next.front().program, 12);
+    const diagnosis::Diagnosis after =
+        diagnosis::diagnose(known, records::join_readings({first, second}));
+    REQUIRE_FALSE(after.causes.empty());
+    CHECK(after.causes.front().effect == "C.radial");
+    CHECK(after.causes.front().rivals.empty());
+}
+
 }  // namespace trunnion

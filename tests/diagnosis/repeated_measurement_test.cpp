@@ -7,6 +7,7 @@
 #include "effects/settings.h"
 #include "emulator/replay.h"
 #include "tests/support/campaign.h"
+#include "tests/support/said.h"
 
 namespace trunnion {
 namespace {
@@ -126,8 +127,154 @@ TEST_CASE("a repeat that shows nothing new is not asked for", "[diagnosis][next]
     const diagnosis::Diagnosis d = diagnosis::diagnose(known, first);
     const diagnosis::NextMeasurement* next = between(d, "X.scale", "sensor.gain");
     REQUIRE(next);
-    CHECK(next->text == "to tell X.scale from sensor.gain: measure with a second instrument");
-    CHECK_FALSE(next->settles);
+    CHECK(next->text.find("to tell X.scale from sensor.gain: take a line along Y") == 0);
+    CHECK(next->settles);
+}
+
+namespace {
+
+/// A stage has no other axis.
+setup::Setup stage(const std::string& more = "") {
+    std::vector<std::string> notes;
+    return setup::parse_setup(
+        "[machine]\nname = \"stage\"\nchain = \"w X b t\"\n"
+        "[[artefact]]\nname = \"R1\"\nkind = \"target\"\ntool_mm = [0, 0, -100]\n" +
+            more + "[model]\nmodelled = []\nnoise_um = { linear = 0.8 }\n",
+        "stage.toml", notes);
+}
+
+}  // namespace
+
+// The first instrument is named nowhere; the setup learns of both when the second one comes.
+TEST_CASE("a second instrument tells an axis from the first instrument", "[diagnosis][next]") {
+    const setup::Setup known = stage();
+    const setup::Setup both =
+        stage("[[instrument]]\nname = \"old\"\n[[instrument]]\nname = \"new\"\n");
+    for (const char* truth : {"X.scale: scale_ppm=20", "sensor.gain: gain_old_ppm=20"}) {
+        INFO(truth);
+        const std::string right(truth, std::string(truth).find(':'));
+        const std::string wrong = right == "X.scale" ? "sensor.gain" : "X.scale";
+        const setup::Setup real = campaign::with_effect(both, truth);
+        records::ReadingTable first = laser_line();
+        first.axes = {Axis::X};
+        first = campaign::measured(real, first, 7);
+        const diagnosis::Diagnosis before = diagnosis::diagnose(known, first);
+        const diagnosis::NextMeasurement* next = between(before, right, wrong);
+        REQUIRE(next);
+        INFO(next->text);
+        CHECK(next->text.find("with a second instrument") != std::string::npos);
+        CHECK(next->text.find("--with instrument=NAME") != std::string::npos);
+        CHECK(next->settles);
+        const auto list = diagnosis::repeated_measurements(known, first, 1e4);
+        const diagnosis::Measurement* asked = asked_for(list, *next);
+        REQUIRE(asked);
+        diagnosis::Measurement repeat = *asked;
+        for (records::Reading& row : repeat.table.rows) row.instrument = "new";
+        const diagnosis::Diagnosis after = with_repeat(both, real, first, repeat);
+        INFO(said(after));
+        REQUIRE(after.causes.size() == 1);
+        CHECK(claims(after, right));
+        CHECK_FALSE(has_rival(after, wrong));
+        if (right == "sensor.gain")
+            CHECK(after.causes.front().parameters.front().name == "gain_old_ppm");
+    }
+}
+
+TEST_CASE("a line along another axis tells the scale of one from the stretch of all",
+          "[diagnosis][next]") {
+    const setup::Setup known = mill();
+    for (const char* truth : {"X.scale: scale_ppm=20", "machine.expansion: stretch_ppm=20"}) {
+        INFO(truth);
+        const std::string right(truth, std::string(truth).find(':'));
+        const std::string wrong = right == "X.scale" ? "machine.expansion" : "X.scale";
+        const setup::Setup real = campaign::with_effect(known, truth);
+        records::ReadingTable aside = laser_line();
+        for (records::Reading& row : aside.rows) row.commanded[Axis::Z] = 200.0;
+        const records::ReadingTable first =
+            campaign::measured(real, records::join_readings({laser_line(), aside}), 7);
+        const diagnosis::Diagnosis before = diagnosis::diagnose(known, first);
+        INFO(said(before));
+        const diagnosis::NextMeasurement* next = between(before, right, wrong);
+        REQUIRE(next);
+        INFO(next->text);
+        CHECK(next->settles);
+        const auto list = diagnosis::repeated_measurements(known, first, 1e4);
+        const diagnosis::Measurement* repeat = asked_for(list, *next);
+        REQUIRE(repeat);
+        const diagnosis::Diagnosis after = with_repeat(known, real, first, *repeat);
+        INFO(said(after));
+        CHECK(claims(after, right));
+        CHECK_FALSE(claims(after, wrong));
+        CHECK_FALSE(has_rival(after, wrong));
+    }
+}
+
+namespace {
+
+bool are_rivals(const diagnosis::Diagnosis& d, const diagnosis::NextMeasurement& pair) {
+    return std::any_of(d.causes.begin(), d.causes.end(), [&](const diagnosis::Cause& c) {
+        const std::string& other = c.effect == pair.first ? pair.second : pair.first;
+        return (c.effect == pair.first || c.effect == pair.second) &&
+               std::find(c.rivals.begin(), c.rivals.end(), other) != c.rivals.end();
+    });
+}
+
+/// X in one direction, on one line or on two.
+records::ReadingTable sweeps(int count) {
+    records::ReadingTable sweep = laser_line();
+    sweep.rows.resize(22);
+    for (records::Reading& row : sweep.rows) row.time_s *= 1.5;
+    std::vector<records::ReadingTable> all(1, sweep);
+    for (records::Reading& row : sweep.rows) row.commanded[Axis::Z] = 200.0;
+    if (count > 1) all.push_back(sweep);
+    return records::join_readings(std::move(all));
+}
+
+struct Swept {
+    const char* truth;
+    int lines;
+};
+
+}  // namespace
+
+// Position and time are one in a sweep of one direction, and the time constant of a drift adapts
+// itself to how long each sweep took: the places from both sides, as slowly, promise nothing.
+TEST_CASE("what is asked for after sweeps of one direction ends at a scale or at a drift",
+          "[diagnosis][next]") {
+    const setup::Setup known = mill();
+    for (const auto& [truth, lines] :
+         {Swept{"X.scale: scale_ppm=29", 1}, Swept{"X.scale: scale_ppm=29", 2},
+          Swept{"thermal.drift: d_mm=[0.02, 0, 0], tau_s=600", 1}}) {
+        INFO(truth << " " << lines);
+        const std::string right(truth, std::string(truth).find(':'));
+        const setup::Setup real = campaign::with_effect(known, truth);
+        records::ReadingTable all = campaign::measured(real, sweeps(lines), 7, 0.5);
+        diagnosis::Diagnosis d = diagnosis::diagnose(known, all);
+        std::uint64_t seed = 8;
+        bool of_drift = false;
+        while (d.verdict == diagnosis::Verdict::ambiguous && seed < 14) {
+            const auto next =
+                std::find_if(d.next.begin(), d.next.end(), [](const diagnosis::NextMeasurement& n) {
+                    return n.first == "thermal.drift" || n.second == "thermal.drift";
+                });
+            const diagnosis::NextMeasurement asked = next == d.next.end() ? d.next.front() : *next;
+            INFO(said(d) << '\n' << asked.text);
+            of_drift = of_drift || next != d.next.end();
+            REQUIRE(asked.settles);
+            const auto list =
+                diagnosis::repeated_measurements(known, all, all.rows.back().time_s + 600.0);
+            const diagnosis::Measurement* repeat = asked_for(list, asked);
+            REQUIRE(repeat);
+            all =
+                records::join_readings({all, campaign::measured(real, repeat->table, seed++, 0.5)});
+            d = diagnosis::diagnose(known, all);
+            CHECK_FALSE(are_rivals(d, asked));
+        }
+        INFO(said(d));
+        CHECK(of_drift);
+        CHECK(claims(d, right));
+        CHECK(d.verdict == diagnosis::Verdict::explained);
+    }
 }
 
 TEST_CASE("repeats stay within the travel, go on in time and hold no value", "[diagnosis][next]") {
@@ -150,7 +297,8 @@ TEST_CASE("repeats stay within the travel, go on in time and hold no value", "[d
         CHECK(emulator::Replay(m.setup.value_or(known), m.table).size() >= 126);
     }
     CHECK(names == std::vector<std::string>{"parallel_Y", "parallel_Z", "parallel_all",
-                                            "longer_tool", "both_sides", "denser", "reversed"});
+                                            "longer_tool", "both_sides", "denser", "reversed",
+                                            "line_Y", "line_Z", "second_instrument"});
 }
 
 TEST_CASE("a probe and a ballbar have programs, and nothing is repeated", "[diagnosis][next]") {
