@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "diagnosis/between_places.h"
 #include "diagnosis/causes.h"
 #include "diagnosis/changes.h"
 #include "diagnosis/next_measurement.h"
@@ -80,6 +81,14 @@ std::vector<Missed> missed_by(const Outcome& f, const Eigen::VectorXd& left) {
     return list;
 }
 
+/// True for a table that is written to be interpolated.
+bool is_interpolated(const Outcome& f, std::size_t group) {
+    const auto& members = f.model.members;
+    const auto at = std::find(members.begin(), members.end(), group);
+    return at == members.end() ||
+           f.judgement.interpolates[static_cast<std::size_t>(at - members.begin())];
+}
+
 DrawSetting draw_setting(const Outcome& f, const Written& written, std::uint64_t seed) {
     const double rows = independent_readings(f);
     const bool repeated = f.noise.model.source == NoiseSource::repeats;
@@ -89,6 +98,8 @@ DrawSetting draw_setting(const Outcome& f, const Written& written, std::uint64_t
             repeated ? f.noise.model.doubt : std::sqrt(2.0 / std::max(1.0, rows)),
             rows,
             noise_mm(f).squaredNorm() / static_cast<double>(noise_mm(f).size()),
+            left_between_places(f.design, written.model,
+                                [&](std::size_t group) { return is_interpolated(f, group); }),
             seed};
 }
 

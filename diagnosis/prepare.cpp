@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
+#include <set>
 
 #include "base/alarm.h"
 #include "base/rounded.h"
@@ -78,6 +80,59 @@ Folds make_folds(const std::vector<NoiseBlock>& blocks, std::size_t rows) {
     return folds;
 }
 
+namespace {
+
+/// Places at which an instrument reads several targets, numbered; by block, -1 elsewhere.
+std::vector<int> poses_of_targets(const std::vector<NoiseBlock>& blocks,
+                                  const emulator::Replay& replay,
+                                  const records::ReadingTable& table) {
+    struct Pose {
+        int number;
+        std::set<int> targets;
+    };
+    std::map<std::vector<double>, Pose> known;
+    std::vector<std::vector<double>> at(blocks.size());
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+        if (blocks[b].device != records::Device::point) continue;
+        const auto first = static_cast<std::size_t>(blocks[b].rows.front());
+        for (const Axis axis : table.axes)
+            at[b].push_back(table.rows[replay.table_row(first)].commanded[axis]);
+        const auto [pose, added] =
+            known.try_emplace(at[b], Pose{static_cast<int>(known.size()), {}});
+        pose->second.targets.insert(replay.contact(first).artefact);
+    }
+    std::vector<int> poses(blocks.size(), -1);
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+        if (const auto pose = known.find(at[b]);
+            pose != known.end() && pose->second.targets.size() > 1)
+            poses[b] = pose->second.number;
+    return poses;
+}
+
+}  // namespace
+
+void join_targets(const std::vector<NoiseBlock>& blocks, const emulator::Replay& replay,
+                  const records::ReadingTable& table, Folds& folds) {
+    const std::vector<int> poses = poses_of_targets(blocks, replay, table);
+    if (std::all_of(poses.begin(), poses.end(), [](int p) { return p < 0; })) return;
+    std::map<int, int> group_of_pose, renumbered;
+    std::vector<int> fold;
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+        const int pose = poses[b];
+        for (const Eigen::Index row : blocks[b].rows) {
+            int& group = folds.group[static_cast<std::size_t>(row)];
+            const int own = pose < 0 ? group : group_of_pose.try_emplace(pose, group).first->second;
+            const auto [at, added] = renumbered.try_emplace(own, static_cast<int>(fold.size()));
+            if (added) fold.push_back(folds.fold[static_cast<std::size_t>(own)]);
+            group = at->second;
+        }
+    }
+    folds.fold = std::move(fold);
+    const bool only_poses = std::none_of(poses.begin(), poses.end(), [](int p) { return p < 0; });
+    if (only_poses && folds.fold.size() <= few_poses)
+        std::iota(folds.fold.begin(), folds.fold.end(), 0);
+}
+
 Prepared::Prepared(const setup::Setup& setup, const records::ReadingTable& readings)
     : table(readings),
       replay(setup, readings),
@@ -97,6 +152,7 @@ Prepared::Prepared(const setup::Setup& setup, const records::ReadingTable& readi
     cycle = cycles_of(replay, table);
     rounding_mm = identification::rounding(table, replay);
     folds = make_folds(blocks, replay.size());
+    join_targets(blocks, replay, table, folds);
 }
 
 Prepared prepare(const setup::Setup& setup, const records::ReadingTable& table) {

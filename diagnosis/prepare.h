@@ -15,6 +15,10 @@ struct Folds {
     std::vector<int> fold;           ///< fold of each group
 };
 Folds make_folds(const std::vector<NoiseBlock>& blocks, std::size_t rows);
+/// Makes one group of all targets that an instrument reads at one position of the axes: left out
+/// one by one, each would be predicted by the others.
+void join_targets(const std::vector<NoiseBlock>& blocks, const emulator::Replay& replay,
+                  const records::ReadingTable& table, Folds& folds);
 
 /// Constant after prepare(), except for the residual of nonlinear readings and for sides not given
 /// by the table.

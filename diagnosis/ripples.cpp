@@ -186,6 +186,24 @@ bool shows_two_phases(const Prepared& prepared, const effects::Effect& effect,
            alternates(step_of(distinct(positions_of(prepared, ripple->axis))), ripple->period);
 }
 
+std::size_t place_count(const Prepared& prepared, Axis axis) {
+    return distinct(positions_of(prepared, axis)).size();
+}
+
+double chance_of_period(const Prepared& prepared, const effects::Effect& effect,
+                        const std::vector<double>& keys, double part) {
+    const auto ripple = ripple_of(effect, keys);
+    if (!ripple) return 0.0;
+    const std::vector<double> places = distinct(positions_of(prepared, ripple->axis));
+    const auto count = static_cast<double>(places.size());
+    const auto [least, most] = std::minmax_element(ripple->offered.begin(), ripple->offered.end());
+    double periods = 0.5 * count;  // of an even grid
+    if (step_of(places) == 0.0)
+        periods = ripple->counts ? *most : (places.back() - places.front()) / *least;
+    const double free = 0.5 * (count - 3.0);  // mean, cosine and sine are fitted
+    return free > 0.0 ? std::min(1.0, periods * std::pow(1.0 - part, free)) : 1.0;
+}
+
 void add_unresolved_ripple(Design& design, const Prepared& prepared, const Whitener& whitener,
                            const effects::Effect& effect, std::vector<double> keys) {
     const auto ripple = ripple_of(effect, keys);

@@ -23,6 +23,14 @@ std::vector<double> equal_periods(const Prepared& prepared, const effects::Effec
 bool shows_two_phases(const Prepared& prepared, const effects::Effect& effect,
                       const std::vector<double>& keys);
 
+/// Chance that a ripple of some period explains this part (0 to 1) of independent errors at the
+/// places of its axis: their number less mean, cosine and sine are free, and any of the periods
+/// that the places tell apart may fit. 0 for other effects.
+double chance_of_period(const Prepared& prepared, const effects::Effect& effect,
+                        const std::vector<double>& keys, double part);
+/// Number of different positions of an axis.
+std::size_t place_count(const Prepared& prepared, Axis axis);
+
 /// Adds a ripple that the positions of its axis do not resolve as a possible rival: no model
 /// contains it, but what another effect explains may be this one. Not for fewer than 8 positions,
 /// where some ripple fits any error.

@@ -252,7 +252,8 @@ Model tuned(Design& design, const SearchSetting& setting, Model model, int sweep
 }
 
 bool same_cause(const ColumnGroup& a, const ColumnGroup& b) {
-    return a.kind == b.kind && a.name == b.name && a.component == b.component;
+    return a.kind == b.kind && a.name == b.name && a.component == b.component &&
+           a.unnamed == b.unnamed;
 }
 
 Offer offer_of(const Design& design, std::size_t group, const estimation::GroupInformation& left) {

@@ -19,6 +19,10 @@ constexpr std::size_t probe_stretches =
 /// are small, in units of their typical size.
 constexpr double sparse_chance = 0.5, sparse_scale = 0.3;
 
+/// Fresh readings are at the places of a table or between them, and its places show a part of its
+/// curvature: up to twice the error that they show.
+constexpr double most_between = 4.0;
+
 /// Index of a model drawn by its weight.
 std::size_t pick(const std::vector<PossibleTruth>& truths, double at) {
     double sum = 0.0;
@@ -159,6 +163,8 @@ void ShrinkDraws::draw_all() {
         draw.along_after = random.normal();
         draw.elsewhere = random.uniform();
         draw.left_there = left_elsewhere(setting_.elsewhere, random);
+        if (setting_.between > 0.0)
+            draw.between = most_between * setting_.between * random.uniform();
         draws_.push_back(draw);
     }
     read_.noalias() = columns_ * machines;
@@ -238,8 +244,10 @@ std::pair<double, double> ShrinkDraws::ends(const Model& model, bool elsewhere) 
         const double before = draws_[d].remainder + off_without[d];
         double after = draws_[d].remainder + off_with[d];
         after += 2.0 * draws_[d].false_part * std::max(0.0, before - after);
-        if (elsewhere)
+        if (elsewhere) {
             after += draws_[d].elsewhere * std::max(0.0, before * draws_[d].left_there - after);
+            after += before * draws_[d].between;
+        }
         const double read = as_read(before, draws_[d], draws_[d].along_before);
         after = as_read(after, draws_[d], draws_[d].along_after);
         shrink.push_back(read > 0.0 ? 1.0 - std::sqrt(after / read) : 0.0);

@@ -42,6 +42,7 @@ struct DrawSetting {
     double independent = 1.0;    ///< number of independent readings with the same information about
                                  ///< the noise
     double noise_per_row = 0.0;  ///< mm^2
+    double between = 0.0;        ///< of the squares that tables leave between their places
     std::uint64_t seed = 1;
 };
 
@@ -71,6 +72,7 @@ class ShrinkDraws {
         double noise = 0.0;       ///< mm^2, weighted: expected noise of the fresh readings
         double elsewhere = 0.0;   ///< fraction of the fresh readings over unmeasured paths
         double left_there = 0.0;  ///< what the written causes leave of the squares there
+        double between = 0.0;     ///< what tables leave of the squares between their places
         /// Standard normal: deviation of the fresh noise from its expectation, and its projection
         /// on the error before and after the fit.
         double off = 0.0, along_before = 0.0, along_after = 0.0;

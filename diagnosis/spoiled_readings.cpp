@@ -51,7 +51,7 @@ std::vector<std::size_t> visits_of(const emulator::Replay& replay) {
     return visit;
 }
 
-/// True when the visits with these rows follow one another: spoiled ones rarely do.
+/// True when the visits with these rows follow one another: more than two spoiled ones rarely do.
 bool follow_one_another(const emulator::Replay& replay, const std::vector<std::size_t>& rows) {
     const std::vector<std::size_t> visit = visits_of(replay);
     std::vector<std::size_t> hit;
@@ -59,7 +59,7 @@ bool follow_one_another(const emulator::Replay& replay, const std::vector<std::s
         if (hit.empty() || hit.back() != visit[i]) hit.push_back(visit[i]);
     std::size_t pairs = 0;
     for (std::size_t k = 1; k < hit.size(); ++k) pairs += hit[k] - hit[k - 1] == 1 ? 1 : 0;
-    return 10 * pairs > 4 * hit.size();
+    return hit.size() > 2 && 10 * pairs > 4 * hit.size();
 }
 
 }  // namespace

@@ -80,6 +80,36 @@ bool is_other_course(const Design& design, const Model& model, std::size_t posit
                        [&](std::size_t m) { return design.group(m).of_time; });
 }
 
+/// Squares of errors that each place of an axis may have for itself: what is left, and tables that
+/// do not hold between their places.
+double square_of_places(const Design& design, const Model& model, const Sizes& sizes,
+                        const Judgement& j, Axis axis) {
+    double square = std::max(0.0, sizes.remainder.squaredNorm() - sizes.floor * design.freedom());
+    for (std::size_t k = 0; k < model.members.size(); ++k) {
+        const ColumnGroup& group = design.group(model.members[k]);
+        if (group.kind == GroupKind::table && !j.interpolates[k] && group.table.axis.axis == axis)
+            square += sizes.square[k];
+    }
+    return square;
+}
+
+/// Marks ripples that independent errors of the places may imitate as holding at the places alone:
+/// some period among many fits a few of them.
+void mark_accidents(const Design& design, const Prepared& prepared, const Model& model,
+                    const Sizes& sizes, Judgement& j) {
+    constexpr double rare = 0.05;
+    for (std::size_t k = 0; k < model.members.size(); ++k) {
+        const ColumnGroup& group = design.group(model.members[k]);
+        if (group.kind != GroupKind::periodic || !group.effect->axis) continue;
+        const Axis axis = *group.effect->axis;
+        const double noise = sizes.floor * static_cast<double>(place_count(prepared, axis));
+        const double others = noise + square_of_places(design, model, sizes, j, axis);
+        const double part = sizes.square[k] / (sizes.square[k] + others);
+        if (chance_of_period(prepared, *group.effect, group.keys, part) > rare)
+            j.interpolates[k] = false;
+    }
+}
+
 double share_of_tables(const Sizes& sizes, const std::vector<bool>& those) {
     double sum = 0.0;
     for (std::size_t k = 0; k < those.size(); ++k)
@@ -120,9 +150,9 @@ double chance_of(const Design& design, const Model& model, const NoiseModel& noi
     for (const std::size_t m : model.members)
         width += static_cast<double>(design.group(m).columns());
     const double explained = (y.squaredNorm() - sizes.remainder.squaredNorm()) / sizes.floor;
-    const double one = noise.doubt > 0.0
-                           ? estimation::f_tail(explained / width, width, 2.0 / (noise.doubt * noise.doubt))
-                           : estimation::chi_squared_tail(explained, width);
+    const double one = noise.doubt > 0.0 ? estimation::f_tail(explained / width, width,
+                                                              2.0 / (noise.doubt * noise.doubt))
+                                         : estimation::chi_squared_tail(explained, width);
     return std::min(1.0, effects_tried * one);
 }
 
@@ -209,6 +239,7 @@ Judgement judged(FoldColumns& rows, const Prepared& prepared, const Model& model
             (group.kind != GroupKind::table || holds_between(design, prepared, model, k, used)));
     }
     const Sizes sizes = sizes_of(design, model, j.floor, j.large);
+    mark_accidents(design, prepared, model, sizes, j);
     auto local = j.interpolates;
     local.flip();
     j.between_places = share_of_tables(sizes, local) <= rules::between_part;

@@ -1,8 +1,10 @@
 // Which readings share the error of a pose: one visit, not the same place taken again.
 #include <catch2/catch.hpp>
+#include <set>
 
 #include "base/random.h"
 #include "diagnosis/noise.h"
+#include "diagnosis/prepare.h"
 #include "tests/support/campaign.h"
 
 namespace trunnion {
@@ -44,6 +46,51 @@ struct Visits {
 };
 
 }  // namespace
+
+TEST_CASE("targets that are read at one position of the axes are left out together",
+          "[diagnosis]") {
+    std::vector<std::string> notes;
+    const setup::Setup setup = setup::parse_setup(
+        "[machine]\nname = \"m\"\nchain = \"w b X Y Z C t\"\n"
+        "[machine.axis.C]\ndirection = [0, 0, 1]\npoint_mm = [0, 0, 0]\n"
+        "[[instrument]]\nname = \"tracker\"\nframe = \"M\"\nfree = [\"pose\"]\n"
+        "[[artefact]]\nname = \"T1\"\nkind = \"target\"\ntool_mm = [50, 0, -80]\n"
+        "[[artefact]]\nname = \"T2\"\nkind = \"target\"\ntool_mm = [-40, 30, -60]\n",
+        "s.toml", notes);
+    records::ReadingTable table = campaign::empty_table(setup);
+    for (const char* target : {"T1", "T2"})  // one after the other, at the same poses
+        for (int pose = 0; pose < 6; ++pose)
+            for (int d = 0; d < 3; ++d) {
+                records::Reading row;
+                row.index = static_cast<int>(table.rows.size());
+                row.time_s = 60.0 * (row.index / 3);
+                row.test = "points";
+                row.device = records::Device::point;
+                row.feature = target;
+                row.commanded[Axis::X] = 50.0 * pose;
+                row.commanded[Axis::C] = 0.4 * pose * pose;
+                row.direction_M = Vector3::Unit(d);
+                row.value_mm = 0.0;
+                table.rows.push_back(row);
+            }
+    const emulator::Replay replay(setup, table);
+    const auto blocks = diagnosis::noise_blocks(replay, table);
+    REQUIRE(blocks.size() == 12);
+    diagnosis::Folds folds = diagnosis::make_folds(blocks, replay.size());
+    diagnosis::join_targets(blocks, replay, table, folds);
+    REQUIRE(folds.fold.size() == 6);
+    for (std::size_t i = 0; i < 18; ++i) CHECK(folds.group[i] == folds.group[i + 18]);
+    CHECK(folds.group[0] != folds.group[3]);
+    CHECK(std::set<int>(folds.fold.begin(), folds.fold.end()).size() == 6);
+    // Poses of one target each stay as they are.
+    table.rows.resize(18);
+    const emulator::Replay one(setup, table);
+    const auto few = diagnosis::noise_blocks(one, table);
+    diagnosis::Folds before = diagnosis::make_folds(few, one.size()), after = before;
+    diagnosis::join_targets(few, one, table, after);
+    CHECK(after.group == before.group);
+    CHECK(after.fold == before.fold);
+}
 
 TEST_CASE("a pose that is left and taken again is another visit", "[diagnosis]") {
     Visits v;

@@ -1,4 +1,4 @@
-// What a diagnosis says, in one line for the messages of tests.
+// What a diagnosis says, causes with their rivals, in one line for the messages of tests.
 #pragma once
 
 #include <fmt/format.h>
@@ -12,9 +12,9 @@ namespace trunnion {
 inline std::string said(const diagnosis::Diagnosis& d) {
     std::string text = to_string(d.verdict);
     for (const diagnosis::Cause& c : d.causes)
-        text +=
-            fmt::format(", {}{} {:.0f} % p {:.2f}", c.effect,
-                        c.since.empty() ? "" : " since " + c.since, 100.0 * c.share, c.probability);
+        text += fmt::format(", {}{} {:.0f} % p {:.2f} [{}]", c.effect,
+                            c.since.empty() ? "" : " since " + c.since, 100.0 * c.share,
+                            c.probability, fmt::join(c.rivals, " "));
     return text;
 }
 
