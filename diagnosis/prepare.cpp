@@ -14,6 +14,7 @@
 #include "diagnosis/holdout_zeros.h"
 #include "diagnosis/machine_jump.h"
 #include "identification/index_errors.h"
+#include "identification/plausible.h"
 #include "identification/resolution.h"
 #include "identification/start_pose.h"
 
@@ -21,7 +22,6 @@ namespace trunnion::diagnosis {
 namespace {
 
 constexpr std::size_t least_readings = 12;
-constexpr double absurd_mm = 5.0;
 constexpr std::size_t few_poses = 25;
 
 }  // namespace
@@ -185,7 +185,7 @@ void refuse_poor_holdout(const Prepared& prepared, const records::ReadingTable& 
     }
     free_medians(rows_of_zeros(replay), left_mm);
     for (Eigen::Index i = 0; i < left_mm.size(); ++i)
-        if (std::abs(left_mm(i)) > absurd_mm)
+        if (std::abs(left_mm(i)) > identification::absurd_residual_mm(prepared.base.setup))
             throw InputError(fmt::format("held out, {} mm away from what the simulation reads: "
                                          "wrong units (um for mm?), wrong frame, another machine",
                                          three_digits(left_mm(i))),

@@ -49,22 +49,30 @@ Eigen::VectorXd without_lag(const BaseModel& model, const emulator::Replay& repl
     return size;
 }
 
+/// How much wider the limits are.
+double width_of(const setup::Setup& setup) {
+    return setup::is_arm(setup.machine.chain) ? of_an_arm : 1.0;
+}
+
 }  // namespace
+
+double absurd_residual_mm(const setup::Setup& setup) {
+    return width_of(setup) * absurd_mm;
+}
 
 void tell_absurd_residuals(BaseModel& model, const emulator::Replay& replay,
                            const records::ReadingTable& table) {
     const bool allowed = model.setup.model.allow_large;
-    const double wide = setup::is_arm(model.setup.machine.chain) ? of_an_arm : 1.0;
     const Eigen::VectorXd size = without_lag(model, replay);
     Eigen::Index worst = 0;
     const double most = size.maxCoeff(&worst);
     const records::Reading& row = table.rows[replay.table_row(static_cast<std::size_t>(worst))];
     const bool meant = allowed || row.sigma_mm.value_or(0.0) > 0.0;
-    if (most > wide * absurd_mm)
+    if (most > absurd_residual_mm(model.setup))
         tell_absurd(model, meant, fmt::format("a residual of {} mm", three_digits(most)),
                     records::place_of(table, row));
     const double rms = std::sqrt(size.squaredNorm() / static_cast<double>(size.size()));
-    if (rms > wide * absurd_rms_mm)
+    if (rms > width_of(model.setup) * absurd_rms_mm)
         tell_absurd(model, meant, fmt::format("residuals of {} mm rms", three_digits(rms)),
                     {table.path, 0, 0});
 }

@@ -6,6 +6,9 @@
 
 namespace trunnion::identification {
 
+/// Residual beyond which units, frame or setup are wrong, mm: 5, of an arm 50.
+double absurd_residual_mm(const setup::Setup& setup);
+
 /// Implausible residuals of a fitted model are refused (InputError), or noted when the user
 /// declared them as intended: by `allow_large` of the setup's model or by a `sigma_mm` of the row.
 void tell_absurd_residuals(BaseModel& model, const emulator::Replay& replay,

@@ -10,10 +10,10 @@
 namespace trunnion::report {
 
 /// The positioning error of a linear axis, with its claimed scale, as increments at equidistant
-/// positions in the sense in which the axis counts, in whole detection units. The value of a position is added by the compensation on the way from the
-/// previous position: minus the increase of the error. Rounding errors do not accumulate. Sign,
-/// increments and units as on a Fanuc control with incremental pitch error compensation are
-/// *assumed*; see docs/diagnosis.md.
+/// positions in the sense in which the axis counts, in whole detection units. The value of a
+/// position is added by the compensation on the way from the previous position: minus the increase
+/// of the error. Rounding errors do not accumulate. Sign, increments and units as on a Fanuc
+/// control with incremental pitch error compensation are *assumed*; see docs/diagnosis.md.
 struct PitchErrorData {
     double first_mm = 0.0, interval_mm = 0.0, unit_mm = 1e-3;
     std::vector<int> value;  ///< of the positions after the first
