@@ -20,7 +20,9 @@ constexpr double odd_period_prior = -3.0;           // ln 0.05
 constexpr double table_prior = -3.912023005428146;  ///< ln 0.02: free form, driver
 
 // A gap is reported when both the evidence and the left-out readings support it.
-constexpr double least_evidence = 3.0;   ///< nats, for the whole model
+constexpr double least_evidence = 3.0;  ///< nats, for the whole model
+constexpr double course_evidence =
+    9.0;  ///< ... for a course of time over tests whose zeros scatter
 constexpr double plain_evidence = 15.0;  ///< ... above which left-out blocks need not agree
 constexpr double plain_chance = 1e-3;    ///< ... or below this chance, where repeats tell the noise
 constexpr double least_t = 2.0;          ///< t statistic of the loss saved on left-out blocks

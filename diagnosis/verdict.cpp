@@ -156,6 +156,23 @@ double chance_of(const Design& design, const Model& model, const NoiseModel& noi
     return std::min(1.0, effects_tried * one);
 }
 
+/// True where all that was found is a course of time, beside the zeros of several tests: these
+/// scatter, and over few tests a scatter is such a course.
+bool is_course_of_zeros(const Design& design, const Model& model) {
+    const auto is_zero = [](const ColumnGroup& group) { return group.kind == GroupKind::offset; };
+    const auto is_course = [](const ColumnGroup& group) {
+        using enum effects::EffectKind;
+        if (!group.effect) return group.of_time;
+        const effects::EffectKind kind = group.effect->kind;
+        return kind == thermal_drift || kind == thermal_expansion || kind == artefact_moved;
+    };
+    const bool tests = std::any_of(design.groups().begin(), design.groups().end(),
+                                   [&](const auto& entry) { return is_zero(entry.group); });
+    return tests && std::all_of(model.members.begin(), model.members.end(), [&](std::size_t m) {
+               return is_zero(design.group(m)) || is_course(design.group(m));
+           });
+}
+
 /// True when there is more than noise. Without a driver the evidence must be confirmed by left-out
 /// readings, unless repeats tell the noise and it is far too small for what was found.
 bool is_gap(Design& design, const Model& model, const Judgement& j, const Sizes& sizes,
@@ -168,6 +185,7 @@ bool is_gap(Design& design, const Model& model, const Judgement& j, const Sizes&
     const bool unlikely = j.repeated && j.chance < rules::plain_chance;
     const bool confirmed = unlikely && saving.t >= rules::least_t && j.evidence > 0.0;
     if (j.evidence < rules::least_evidence && !confirmed) return false;
+    if (j.evidence < rules::course_evidence && is_course_of_zeros(design, model)) return false;
     if (driver > rules::least_driver * j.floor * design.rows()) return true;
     if (saving.t < rules::least_t && j.evidence < rules::plain_evidence && !unlikely) return false;
     return j.before - j.after >= rules::least_saving * j.floor;
