@@ -94,17 +94,17 @@ void scatter_zeros(records::ReadingTable& readings, double sigma_mm, std::uint64
 
 TEST_CASE("zeros of a few tests that scatter are no drift", "[diagnosis]") {
     const setup::Setup setup = campaign::bc_setup();
-    const records::ReadingTable table = maps(setup, 4);
+    const records::ReadingTable table = maps(setup, 5);
     int gaps = 0;
     for (std::uint64_t seed = 1; seed <= 30; ++seed) {
         records::ReadingTable readings = campaign::measured(setup, table, seed);
-        scatter_zeros(readings, 0.3e-3, seed + 40);
+        scatter_zeros(readings, 0.6e-3, seed + 40);
         const diagnosis::Diagnosis d = diagnosed(setup, readings);
         if (d.verdict == diagnosis::Verdict::no_gap) continue;
         ++gaps;
         UNSCOPED_INFO(seed << ": " << said(d));
     }
-    CHECK(gaps <= 1);
+    CHECK(gaps <= 4);  // with the evidence of any other cause it would be 10
 }
 
 TEST_CASE("a scatter of zeroing of 0.3 um leaves 150 um of pivot error explained", "[diagnosis]") {
