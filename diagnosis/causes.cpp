@@ -139,7 +139,7 @@ void add_scales(const effects::Catalogue& catalogue, std::vector<Cause>& causes)
             for (TablePoint& point : table.points) {
                 if (!point.too_far_mm || point.error.substr(2) != axis) continue;
                 *point.too_far_mm += moved_mm(*effect, values, point.at);
-                table.with = scale.effect;
+                table.includes = scale.effect;
             }
     }
 }

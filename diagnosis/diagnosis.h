@@ -39,7 +39,7 @@ struct TablePoint {
     std::string at_unit, unit;  ///< mm or rad
     bool against = false;       ///< the error counts along + of M, the axis the other way round
     /// Of a slide along its own travel: how far beyond the command it goes, mm, with the scale of
-    /// the axis where one is claimed beside the table (Cause::with).
+    /// the axis where one is claimed beside the table (Cause::includes).
     std::optional<double> too_far_mm = {};
 };
 
@@ -54,7 +54,7 @@ struct Cause {
     HeldOut heldout;
     std::string what, usual_cause, remedy;
     std::vector<TablePoint> points;  ///< of a cause in free form, else empty
-    std::string with;                ///< cause that TablePoint::too_far_mm includes: "Y.scale"
+    std::string includes;            ///< cause that TablePoint::too_far_mm includes: "Y.scale"
     Finite rms_sigma = 0.0;          ///< what it does to the readings, rms in their sigma
     bool holds_between = true;       ///< a free form that predicts places left out
     std::string since;               ///< a change: the session from which it holds; else empty

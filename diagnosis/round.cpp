@@ -19,6 +19,9 @@ namespace {
 
 constexpr double outlier_sigma = 1e3;  ///< sigma of an excluded reading, relative to its own
 constexpr int first_keys = 2;
+/// Of readings without noise, in sigma: less than this is arithmetic, and beside it no fit is
+/// determined.
+constexpr double least_noise = 1e-6;
 
 /// Whitened set-up and data, with an additional row for each calibrated value.
 Design empty_design(const Prepared& p, const Whitener& whitener, const std::vector<bool>& used) {
@@ -214,7 +217,8 @@ NoiseBelief belief_of(const Prepared& p, const Eigen::VectorXd& residual_mm, con
     const RepeatedRows rows{p.replay, p.table, p.blocks, round.used, p.cycle, p.rounding_mm};
     belief.model = noise_from_repeats(rows, residual_mm, round.sigma_mm, start);
     // The errors of rounding may be somewhat smaller than those of even numbers.
-    belief.prior.least = 0.7 * least_by_rounding(rows, round.sigma_mm, belief.model);
+    belief.prior.least =
+        std::max(least_noise, 0.7 * least_by_rounding(rows, round.sigma_mm, belief.model));
     switch (belief.model.source) {
         case NoiseSource::repeats:
             belief.prior.spread = std::max(0.03, 0.5 * belief.model.doubt);

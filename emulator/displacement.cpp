@@ -22,14 +22,6 @@ Vector3 declared_S_mm(const setup::Setup& setup, const setup::Artefact& target) 
     return target.tool_S_mm ? setup.target_S_mm(target) : Vector3(Vector3::Zero());
 }
 
-/// Index of the instrument that reads the row: the first one where it names none.
-int reader_of(const setup::Setup& setup, const records::Reading& row) {
-    if (row.instrument.empty()) return setup.instruments.empty() ? -1 : 0;
-    for (std::size_t k = 0; k < setup.instruments.size(); ++k)
-        if (setup.instruments[k].name == row.instrument) return static_cast<int>(k);
-    throw InputError("the setup has no [[instrument]] named '" + row.instrument + "'");
-}
-
 }  // namespace
 
 double linear_mm(const InstrumentView& view) {
@@ -57,13 +49,13 @@ double encoder_mm(const InstrumentView& view) {
 }
 
 void aim_at_displacement(const setup::Setup& setup, const records::Reading& row, Contact& contact) {
-    contact.instrument = reader_of(setup, row);
+    contact.instrument = instrument_of_row(setup, row);
     contact.believed_WS =
         pose_WS(kinematics::Machine{setup.machine.chain, {}}.poses(row.commanded));
 }
 
 void aim_at_encoder(const setup::Setup& setup, const records::Reading& row, Contact& contact) {
-    contact.instrument = reader_of(setup, row);
+    contact.instrument = instrument_of_row(setup, row);
     for (const kinematics::AxisGeometry& axis : setup.machine.chain.axes())
         if (axis.name == row.feature) {
             contact.axis = axis.axis;

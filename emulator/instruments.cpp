@@ -90,6 +90,13 @@ int artefact_index(const setup::Setup& setup, const std::string& name) {
 
 }  // namespace
 
+int instrument_of_row(const setup::Setup& setup, const records::Reading& row) {
+    if (row.instrument.empty()) return setup.instruments.empty() ? -1 : 0;
+    for (std::size_t k = 0; k < setup.instruments.size(); ++k)
+        if (setup.instruments[k].name == row.instrument) return static_cast<int>(k);
+    throw InputError("the setup has no [[instrument]] named '" + row.instrument + "'");
+}
+
 double reading_mm(const InstrumentView& view) {
     return entry_of(view.contact.device).read(view);
 }

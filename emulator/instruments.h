@@ -52,6 +52,10 @@ Vector3 centre_to_tip_M(const InstrumentView& view);
 /// did not change along it.
 probe::WayToSphere way_to_contact(const InstrumentView& view);
 
+/// Index in Setup::instruments of the one that reads the row: the first where it names none, -1
+/// without any. Throws InputError without position for a name that the setup does not have.
+int instrument_of_row(const setup::Setup& setup, const records::Reading& row);
+
 /// The device's contact at the nominal pose of a row. Throws InputError without position when the
 /// setup lacks the device or the artefact.
 Contact contact_of(const setup::Setup& setup, const kinematics::MachinePose& nominal,

@@ -18,15 +18,6 @@ Vector3 place_mm(const setup::Setup& setup, const setup::Artefact& target) {
     return target.tool_S_mm ? setup.target_S_mm(target) : target.center_W_mm;
 }
 
-int instrument_index(const setup::Setup& setup, const std::string& name) {
-    if (name.empty() && setup.instruments.size() > 1)
-        throw InputError("a point row without an instrument, and the setup has several");
-    for (std::size_t k = 0; k < setup.instruments.size(); ++k)
-        if (name.empty() || setup.instruments[k].name == name) return static_cast<int>(k);
-    if (name.empty()) return -1;
-    throw InputError("the setup has no instrument named '" + name + "'");
-}
-
 /// The instrument of the setup with the fit's corrections; without an [[instrument]] one at M.
 setup::Instrument instrument_of(const InstrumentView& view) {
     if (view.contact.instrument < 0) return {};
@@ -55,7 +46,9 @@ double point_mm(const InstrumentView& view) {
 }
 
 void aim_at_point(const setup::Setup& setup, const records::Reading& row, Contact& contact) {
-    contact.instrument = instrument_index(setup, row.instrument);
+    if (row.instrument.empty() && setup.instruments.size() > 1)
+        throw InputError("a point row without an instrument, and the setup has several");
+    contact.instrument = instrument_of_row(setup, row);
     const setup::Instrument instrument =
         contact.instrument < 0 ? setup::Instrument{}
                                : setup.instruments[static_cast<std::size_t>(contact.instrument)];

@@ -52,7 +52,7 @@ Json json_of(const diagnosis::Cause& cause) {
                                    {"interval_mm", data->interval_mm},
                                    {"unit_mm", data->unit_mm},
                                    {"value", data->value}};
-            if (!cause.with.empty()) json["pitch_error"]["includes"] = cause.with;
+            if (!cause.includes.empty()) json["pitch_error"]["includes"] = cause.includes;
         }
     }
     return json;

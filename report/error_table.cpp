@@ -108,10 +108,10 @@ std::string error_table(const diagnosis::Cause& cause) {
     const auto data = pitch_error_data(cause);
     if (!data) return text;
     text += fmt::format(
-        "  pitch error data{}, from {:.4f} mm every {:.4f} mm, in {:.4f} mm (incremental;\n"
-        "  assumed):\n"
+        "  pitch error data{}, from {:.4f} mm every {:.4f} mm,\n"
+        "  in {:.4f} mm (incremental; assumed):\n"
         "  {}\n",
-        cause.with.empty() ? "" : " (" + cause.with + " included)", data->first_mm,
+        cause.includes.empty() ? "" : " (" + cause.includes + " included)", data->first_mm,
         data->interval_mm, data->unit_mm, fmt::join(data->value, " "));
     return text;
 }

@@ -79,8 +79,8 @@ struct Instrument {
     Vector3 origin_mm = Vector3::Zero();     ///< origin of M in the instrument's frame
     Vector3 rotation_deg = Vector3::Zero();  ///< rotation of M about the instrument's fixed X, then
                                              ///< Y, then Z axis
-    bool free_pose = false;                  ///< six small corrections of the pose are fitted in
-                                             ///< each session
+    bool free_pose = false;                  ///< the pose is fitted in each session: six
+                                             ///< corrections, of any size
     bool free_scale = false;                 ///< a scale factor of its readings is fitted in each
                                              ///< session
     /// Fitted: the instrument reads shift + exp([tilt]x) (1 + scale_error) pose_IM p_M.

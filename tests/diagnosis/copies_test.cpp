@@ -7,18 +7,12 @@
 #include "base/random.h"
 #include "diagnosis/diagnosis.h"
 #include "setup/setup.h"
+#include "tests/support/laser_lines.h"
 
 namespace trunnion {
 namespace {
 
-setup::Setup stage() {
-    std::vector<std::string> notes;
-    return setup::parse_setup(
-        "[machine]\nname = \"stage\"\nchain = \"w b X Y Z t\"\n"
-        "[[artefact]]\nname = \"R1\"\nkind = \"target\"\ntool_mm = [0, 0, 0]\n"
-        "[model]\nmodelled = []\n",
-        "stage.toml", notes);
-}
+using laser_lines::stage;
 
 /// 39 readings of 50 um scatter at one place, each written `times` times, in steps of `digit_mm`.
 records::ReadingTable log(int times, double digit_mm) {

@@ -5,40 +5,23 @@
 
 #include "diagnosis/diagnosis.h"
 #include "tests/support/campaign.h"
+#include "tests/support/laser_lines.h"
 #include "tests/support/said.h"
 
 namespace trunnion {
 namespace {
 
-setup::Setup mill() {
-    std::vector<std::string> notes;
-    return setup::parse_setup(
-        "[machine]\nname = \"mill\"\nchain = \"w X Y b Z t\"\n"
-        "[[artefact]]\nname = \"R1\"\nkind = \"target\"\ntool_mm = [0, 0, -100]\n"
-        "[model]\nmodelled = []\nnoise_um = { linear = 0.8 }\n",
-        "mill.toml", notes);
+/// Three runs up and down along each of these axes.
+records::ReadingTable lines_along(const std::vector<Axis>& axes) {
+    records::ReadingTable table = laser_lines::empty_table();
+    for (const Axis axis : axes)
+        laser_lines::add_runs(table, {std::string(1, letter_of(axis)), axis, 0.0, 20.0, 16,
+                                      Vector3::Unit(static_cast<Eigen::Index>(index_of(axis)))});
+    return table;
 }
 
-/// Three runs up and down along each of these axes.
-records::ReadingTable laser_lines(const std::vector<Axis>& axes) {
-    records::ReadingTable table;
-    table.path = "laser.csv";
-    table.axes = {Axis::X, Axis::Y, Axis::Z};
-    table.side_before.fill(1);
-    for (const Axis axis : axes)
-        for (int pass = 0; pass < 6; ++pass)
-            for (int k = 0; k < 16; ++k) {
-                records::Reading row;
-                row.index = static_cast<int>(table.rows.size());
-                row.time_s = 10.0 * row.index;
-                row.commanded[axis] = 20.0 * (pass % 2 ? 15 - k : k);
-                row.test = letter_of(axis);
-                row.device = records::Device::linear;
-                row.feature = "R1";
-                row.direction_M[static_cast<Eigen::Index>(index_of(axis))] = 1.0;
-                table.rows.push_back(row);
-            }
-    return table;
+setup::Setup mill() {
+    return laser_lines::mill("w X Y b Z t", 100.0, 0.8);
 }
 
 setup::Setup with_two_lasers() {
@@ -49,7 +32,7 @@ setup::Setup with_two_lasers() {
 
 /// The lines once by each laser.
 records::ReadingTable by_two_lasers(const std::vector<Axis>& axes) {
-    records::ReadingTable table = laser_lines(axes);
+    records::ReadingTable table = lines_along(axes);
     const std::size_t count = table.rows.size();
     for (std::size_t i = 0; i < count; ++i) {
         records::Reading row = table.rows[i];
@@ -65,7 +48,7 @@ records::ReadingTable by_two_lasers(const std::vector<Axis>& axes) {
 diagnosis::Diagnosis diagnosed(const std::string& truth, const std::vector<Axis>& axes) {
     const setup::Setup known = mill();
     return diagnosis::diagnose(
-        known, campaign::measured(campaign::with_effect(known, truth), laser_lines(axes), 5));
+        known, campaign::measured(campaign::with_effect(known, truth), lines_along(axes), 5));
 }
 
 }  // namespace

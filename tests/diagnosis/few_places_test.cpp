@@ -11,21 +11,15 @@
 #include "diagnosis/diagnosis.h"
 #include "effects/settings.h"
 #include "emulator/replay.h"
+#include "tests/support/laser_lines.h"
 #include "tests/support/said.h"
 
 namespace trunnion {
 namespace {
 
-using Error = std::function<double(double at_mm)>;  ///< mm
+using laser_lines::stage;
 
-setup::Setup stage() {
-    std::vector<std::string> notes;
-    return setup::parse_setup(
-        "[machine]\nname = \"stage\"\nchain = \"w b X Y Z t\"\n"
-        "[[artefact]]\nname = \"R1\"\nkind = \"target\"\ntool_mm = [0, 0, 0]\n"
-        "[model]\nmodelled = []\n",
-        "stage.toml", notes);
-}
+using Error = std::function<double(double at_mm)>;  ///< mm
 
 struct Laser {
     std::vector<double> at_mm;

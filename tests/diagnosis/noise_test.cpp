@@ -1,6 +1,7 @@
 // The noise that a diagnosis finds, and the simpler forms of a cause.
 #include <catch2/catch.hpp>
 
+#include "base/units.h"
 #include "diagnosis/candidate_groups.h"
 #include "diagnosis/diagnosis.h"
 #include "tests/support/campaign.h"
@@ -18,6 +19,36 @@ TEST_CASE("readings that scatter more or less than stated have a noise of that s
         INFO(scale);
         CHECK(d.noise.sphere.scale == Approx(scale).epsilon(0.12));
     }
+}
+
+// Without noise the likelihood has no bound: a noise far below the arithmetic of the prediction
+// left fits that were no numbers.
+TEST_CASE("exact readings that no effect explains have a verdict", "[diagnosis]") {
+    const setup::Setup setup = campaign::bc_setup();
+    records::ReadingTable table = campaign::empty_table(setup);
+    double before_rad = 0.0;
+    for (int k = 0; k < 3000; ++k) {
+        records::Reading row;
+        const double c_rad = rad_from_deg(std::fmod(137.508 * k, 600.0) - 300.0);
+        row.index = k;
+        row.time_s = k;
+        row.test = "t";
+        row.device = records::Device::sphere;
+        row.feature = setup.artefacts.front().name;
+        row.commanded[Axis::X] = 120.0 * std::cos(c_rad);
+        row.commanded[Axis::Y] = -120.0 * std::sin(c_rad);
+        row.commanded[Axis::Z] = 230.0;
+        row.commanded[Axis::C] = c_rad;
+        row.direction_M = k % 2 ? Vector3(0, 1, 0) : Vector3(1, 0, 0);
+        row.value_mm = (c_rad > before_rad ? 0.004 : -0.004) + 0.003 * std::sin(7.0 * c_rad);
+        before_rad = c_rad;
+        table.rows.push_back(row);
+    }
+    diagnosis::DiagnosisOptions options;
+    options.plan_next = false;
+    const diagnosis::Diagnosis d = diagnosis::diagnose(setup, table, options);
+    CHECK(d.verdict != diagnosis::Verdict::no_gap);
+    CHECK(d.noise_um < 1e-3);
 }
 
 // The machine drifts while the repeats are taken: to take the drift for noise would conceal it.

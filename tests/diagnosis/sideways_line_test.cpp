@@ -5,45 +5,23 @@
 
 #include "diagnosis/diagnosis.h"
 #include "tests/support/campaign.h"
+#include "tests/support/laser_lines.h"
 #include "tests/support/said.h"
 
 namespace trunnion {
 namespace {
 
-setup::Setup mill() {
-    std::vector<std::string> notes;
-    return setup::parse_setup(
-        "[machine]\nname = \"mill\"\nchain = \"w Y b X Z t\"\n"
-        "[[artefact]]\nname = \"R1\"\nkind = \"target\"\ntool_mm = [0, 0, -150]\n"
-        "[model]\nmodelled = []\nnoise_um = { linear = 0.3 }\n",
-        "mill.toml", notes);
-}
-
-/// Y deviations along X, three runs up and down, with Z at each of these heights.
+/// Y deviations along X, with Z at each of these heights.
 records::ReadingTable sideways(const std::vector<double>& heights_mm) {
-    records::ReadingTable table;
-    table.path = "straightness.csv";
-    table.axes = {Axis::X, Axis::Y, Axis::Z};
-    table.side_before.fill(1);
+    records::ReadingTable table = laser_lines::empty_table();
     for (const double z_mm : heights_mm)
-        for (int pass = 0; pass < 6; ++pass)
-            for (int k = 0; k < 21; ++k) {
-                records::Reading row;
-                row.index = static_cast<int>(table.rows.size());
-                row.time_s = 10.0 * row.index;
-                row.commanded[Axis::X] = -200.0 + 20.0 * (pass % 2 ? 20 - k : k);
-                row.commanded[Axis::Z] = z_mm;
-                row.test = "Z" + std::to_string(static_cast<int>(z_mm));
-                row.device = records::Device::linear;
-                row.feature = "R1";
-                row.direction_M = Vector3(0, 1, 0);
-                table.rows.push_back(row);
-            }
+        laser_lines::add_runs(table, {"Z" + std::to_string(static_cast<int>(z_mm)), Axis::X, -200.0,
+                                      20.0, 21, Vector3::UnitY(), z_mm});
     return table;
 }
 
 diagnosis::Diagnosis diagnosed(const std::string& truth, const std::vector<double>& heights_mm) {
-    const setup::Setup known = mill();
+    const setup::Setup known = laser_lines::mill("w Y b X Z t", 150.0, 0.3);
     return diagnosis::diagnose(
         known, campaign::measured(campaign::with_effect(known, truth), sideways(heights_mm), 5));
 }

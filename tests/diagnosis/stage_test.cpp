@@ -13,19 +13,12 @@
 #include "emulator/replay.h"
 #include "setup/setup.h"
 #include "tests/support/diagnosed.h"
+#include "tests/support/laser_lines.h"
 
 namespace trunnion {
 namespace {
 
-setup::Setup stage(const std::string& more = "") {
-    std::vector<std::string> notes;
-    return setup::parse_setup(
-        "[machine]\nname = \"stage\"\nchain = \"w b X Y Z t\"\n"
-        "[[artefact]]\nname = \"R1\"\nkind = \"target\"\ntool_mm = [0, 0, 0]\n"
-        "[model]\nmodelled = []\n" +
-            more,
-        "stage.toml", notes);
-}
+using laser_lines::stage;
 
 struct Truth {
     std::vector<double> at_mm, error_mm;  ///< mean of both directions at the targets
