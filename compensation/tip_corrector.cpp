@@ -1,5 +1,7 @@
 #include "compensation/tip_corrector.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +9,7 @@
 #include "base/alarm.h"
 #include "base/units.h"
 #include "kinematics/jacobian.h"
+#include "kinematics/tool_sense.h"
 #include "offsets/axis_numbers.h"
 #include "positioning/rotary_transform.h"
 
@@ -44,6 +47,19 @@ void refuse_unknown_axes(const setup::Setup& setup) {
                              {setup.path, 0, 0});
 }
 
+/// The coordinates of a program are those of the tool on the work; an axis that counts the other
+/// way mirrors them, and nobody states how.
+void refuse_mirrored_axes(const setup::Setup& setup) {
+    const Vector3 senses = kinematics::tool_senses(setup.machine.chain);
+    for (const Axis axis : {Axis::X, Axis::Y, Axis::Z})
+        if (senses(static_cast<Eigen::Index>(index_of(axis))) < 0.0)
+            throw InputError(
+                fmt::format("compensation needs axes that count as ISO 841 says: a + command of {} "
+                            "moves the tool against + of M relative to the work",
+                            letter_of(axis)),
+                {setup.path, 0, 0});
+}
+
 }  // namespace
 
 double angle_between(const Vector3& a, const Vector3& b) {
@@ -62,6 +78,7 @@ TipCorrector::TipCorrector(const setup::Setup& setup, const emulator::EffectMode
         if (!nominal_.chain.find(axis))
             throw InputError("compensation needs the axes X, Y and Z", {setup.path, 0, 0});
     refuse_unknown_axes(setup);
+    refuse_mirrored_axes(setup);
 }
 
 bool TipCorrector::turns_tool(const motion::AxisMove& move) const {

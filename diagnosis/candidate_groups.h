@@ -47,6 +47,11 @@ void add_table_groups(Design& design, const Prepared& prepared, const Whitener& 
 /// other devices.
 void add_offset_groups(Design& design, const Prepared& prepared, const Whitener& whitener);
 
+/// Adds the readings of each visit as values of their own, as rivals only: what a single visit
+/// tells may be a bad reading. None for readings of many visits, or of devices that read along a
+/// way. `used`: readings that are not set aside.
+void add_spoiled_visits(Design& design, const Prepared& prepared, const std::vector<bool>& used);
+
 /// Adds drivers: orthogonal to all textbook effects for the search, and unprojected for locating
 /// the gap.
 void add_driver_groups(Design& design, const Prepared& prepared, const Whitener& whitener,

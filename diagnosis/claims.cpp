@@ -14,6 +14,8 @@ namespace trunnion::diagnosis {
 namespace {
 
 constexpr double doubtful = 0.4;  ///< probability at most of causes that cancel each other
+/// A rival is to be named also where it has more parameters, so that its gain is small.
+constexpr std::size_t looked_at = 40;
 /// Probability at most where the search was ended before a contender was looked for.
 constexpr double unchallenged_most = 0.8;
 
@@ -106,6 +108,8 @@ void name_contender(Design& design, const Model& model, const Contender& contend
     if (probability_against(contender) >= rules::sure) return;
     for (const std::size_t k : in_place_of(design, model, contender.model, part))
         name_rival(design, k, claim);
+    for (const std::size_t k : contender.model.members)
+        if (design.group(k).kind == GroupKind::spoiled) name_rival(design, k, claim);
 }
 
 /// A free form of which the readings do not tell the family (seen through one tool length, an
@@ -247,7 +251,7 @@ std::vector<Claim> claims_of(const Searching& search, const Model& model, const 
                              const HeldOutEvidence& heldout) {
     Design& design = search.design;
     const std::vector<Offer> worth = worth_of_members(design, model);
-    OffersBeside beside(design, model);
+    OffersBeside beside(design, model, looked_at);
     std::vector<Claim> claims;
     // Where far more remains than noise may be, sigma is no measure of what is small.
     const double left = model.variances.nu / std::sqrt(sizes.floor);

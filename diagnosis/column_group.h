@@ -15,7 +15,8 @@ enum class GroupKind : unsigned char {
     table,     ///< an error motion of an axis in free form
     periodic,  ///< a catalogue effect with given keys: ripple, drift, slip
     offset,    ///< zero of each test; noise while small, part of the gap when large
-    driver     ///< "where": any dependence on position, time, speed, mode
+    driver,    ///< "where": any dependence on position, time, speed, mode
+    spoiled    ///< the readings of one visit, whatever they are; only a rival
 };
 inline bool is_cause(GroupKind kind) {
     return kind == GroupKind::textbook || kind == GroupKind::table || kind == GroupKind::periodic;

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "base/units.h"
+#include "diagnosis/model_weight.h"
 #include "diagnosis/offers.h"
 #include "diagnosis/rules.h"
 #include "diagnosis/verdict.h"
@@ -42,47 +43,6 @@ class Withheld {
     Design& design_;
     std::vector<std::size_t> groups_;
 };
-
-/// True for the textbook form of what the table gives in free form.
-bool is_part_of(const ColumnGroup& textbook, const TableForm& table) {
-    if (textbook.kind != GroupKind::textbook || textbook.effect->axis != table.axis.axis)
-        return false;
-    const effects::EffectKind kind = textbook.effect->kind;
-    return kind == table.motion ||
-           (kind == effects::EffectKind::scale && table.motion == effects::EffectKind::positioning);
-}
-
-/// True for the angle of the mean line of an axis that runs on a bowed line: a straightness, in
-/// textbook or free form, of an axis of the plane.
-bool is_its_slope(const ColumnGroup& squareness, const ColumnGroup& straightness) {
-    if (squareness.kind != GroupKind::textbook || squareness.is_change() ||
-        squareness.effect->kind != effects::EffectKind::squareness)
-        return false;
-    const std::string& plane = squareness.effect->name;
-    if (straightness.kind == GroupKind::table)
-        return straightness.table.motion == effects::EffectKind::straightness &&
-               plane.substr(0, 2).find(straightness.table.axis.name) != std::string::npos;
-    return straightness.kind == GroupKind::textbook && !straightness.is_change() &&
-           straightness.effect->kind == effects::EffectKind::straightness &&
-           plane.substr(0, 2).find(straightness.name.substr(0, 1)) != std::string::npos;
-}
-
-/// Evidence of a model. An error with a form of its own has a textbook part as often as not: that
-/// is no second improbable cause beside the table. Nor is the squareness of an axis with a bow.
-double weight_of(Design& design, const Model& model) {
-    double sum = evidence(design, model);
-    for (const std::size_t k : model.members) {
-        const ColumnGroup& group = design.group(k);
-        const auto own = [&](std::size_t m) {
-            return (design.group(m).kind == GroupKind::table &&
-                    is_part_of(group, design.group(m).table)) ||
-                   is_its_slope(group, design.group(m));
-        };
-        if (std::any_of(model.members.begin(), model.members.end(), own))
-            sum += std::log(0.5) - group.log_prior;
-    }
-    return sum;
-}
 
 BlockLoss loss_of(FoldColumns& columns, const Model& model) {
     const std::vector<bool> all(model.members.size(), true);
@@ -231,6 +191,22 @@ Contender best_with_jump(const Searching& search, const Standing& chosen, FoldCo
     return against(rows, chosen, std::move(model));
 }
 
+/// The contender with the visit that it misses most taken for spoiled, if that is more likely: what
+/// a single visit tells is not certain.
+Contender or_spoiled(const Searching& search, const Standing& chosen, FoldColumns& rows,
+                     Contender contender) {
+    Design& design = search.design;
+    const std::vector<Offer> visits = OffersBeside(design, contender.model).spoiled_visits();
+    if (visits.empty() || visits.front().value < 0.0) return contender;
+    const std::size_t visit = visits.front().group;
+    Model model = tuned(design, search.setting, with(contender.model, visits.front()), 2);
+    Contender spoiled = against(rows, chosen, std::move(model));
+    // The same visit may be spoiled beside the chosen model, too.
+    for (const Offer& own : OffersBeside(design, chosen.model).spoiled_visits())
+        if (own.group == visit) spoiled.ahead -= std::max(0.0, own.value);
+    return probability_against(spoiled) < probability_against(contender) ? spoiled : contender;
+}
+
 /// The best model without a cause; or, of a bow about machine zero, the one that takes its slope
 /// for squareness, if that is more likely.
 Contender contender_of(const Searching& search, const Standing& chosen, FoldColumns& rows,
@@ -327,6 +303,35 @@ std::optional<Successor> successor(const Searching& search, const Standing& chos
     return Successor{std::move(model), std::move(standing)};
 }
 
+/// True for a model without the cause, and without a driver that would imitate it.
+bool does_without(const Design& design, const Model& chosen, const Model& other,
+                  const std::string& cause) {
+    const bool beside = is_beside_drivers(design, chosen, cause);
+    return !other.members.empty() &&
+           std::none_of(other.members.begin(), other.members.end(), [&](std::size_t m) {
+               const ColumnGroup& group = design.group(m);
+               return (is_cause(group.kind) && group.name == cause) ||
+                      (beside && group.kind == GroupKind::driver &&
+                       std::find(chosen.members.begin(), chosen.members.end(), m) ==
+                           chosen.members.end());
+           });
+}
+
+/// The strongest contender of each cause among all that were found: a model that does without one
+/// cause often does without what was found beside it, too.
+void share_contenders(const Design& design, const Standing& chosen, const Model& model,
+                      std::vector<Contender>& each) {
+    const std::vector<Contender> found = each;
+    for (std::size_t k = 0; k < each.size(); ++k) {
+        const std::string cause = cause_of_member(design, model, k);
+        if (cause.empty()) continue;
+        for (const Contender& other : found)
+            if (does_without(design, chosen.model, other.model, cause) &&
+                probability_against(other) < probability_against(each[k]))
+                each[k] = other;
+    }
+}
+
 /// Finds the contender of each member that is a cause; parts of one cause have one. If one may
 /// replace the chosen model, returns what it becomes, and there are no contenders.
 std::optional<Successor> challenge_each(const Searching& search, const Standing& chosen,
@@ -342,9 +347,11 @@ std::optional<Successor> challenge_each(const Searching& search, const Standing&
             continue;
         }
         contenders[k] = contender_of(search, chosen, rows, cause);
-        if (!may_replace) continue;
-        if (auto next = successor(search, chosen, rows, contenders[k])) return next;
+        if (may_replace)
+            if (auto next = successor(search, chosen, rows, contenders[k])) return next;
+        contenders[k] = or_spoiled(search, chosen, rows, std::move(contenders[k]));
     }
+    share_contenders(search.design, chosen, result.model, contenders);
     result.contenders = std::move(contenders);
     return std::nullopt;
 }

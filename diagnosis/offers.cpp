@@ -6,8 +6,6 @@
 namespace trunnion::diagnosis {
 namespace {
 
-constexpr std::size_t looked_at = 20;  ///< number of offers whose exact gain is computed
-
 /// Visible groups that no member contains in another form.
 std::vector<std::size_t> possible(const Design& design, const std::vector<std::size_t>& members,
                                   const OffersBeside::Takes& takes) {
@@ -33,8 +31,11 @@ double unusual_size(const Design& design, const Offer& offer) {
     return std::log1p(std::pow(offer.gain.tau / usual, 2));
 }
 
-OffersBeside::OffersBeside(Design& design, const Model& model)
-    : design_(design), model_(model), given_(design.equations(model.members), model.variances) {
+OffersBeside::OffersBeside(Design& design, const Model& model, std::size_t most)
+    : design_(design),
+      model_(model),
+      most_(most),
+      given_(design.equations(model.members), model.variances) {
     Eigen::Index first = 0;
     for (const std::size_t m : model.members) {
         first_.push_back(first);
@@ -86,10 +87,9 @@ OffersBeside::Beside OffersBeside::changed(std::size_t position,
     return beside;
 }
 
-/// Of many groups, keeps the few with the largest lower bound of their gain, because the exact gain
-/// costs the square of the model size.
+/// Of many groups, keeps the few with the largest lower bound of their gain.
 void OffersBeside::keep_best(std::vector<std::size_t>& groups, const Beside& beside) const {
-    if (groups.size() <= looked_at || beside.members.empty()) return;
+    if (groups.size() <= most_ || beside.members.empty()) return;
     const double factor = 1.0 / (model_.variances.nu * model_.variances.nu);
     const Eigen::VectorXd left = factor * design_.left(beside.members, beside.mean, groups);
     std::vector<std::pair<double, std::size_t>> least;
@@ -99,9 +99,9 @@ void OffersBeside::keep_best(std::vector<std::size_t>& groups, const Beside& bes
             estimation::group_gain(*entry.reduced, design_.of_group(k, left), factor);
         least.emplace_back(-gain.mean - entry.group.log_prior, k);
     }
-    std::nth_element(least.begin(), least.begin() + static_cast<long>(looked_at), least.end());
+    std::nth_element(least.begin(), least.begin() + static_cast<long>(most_), least.end());
     groups.clear();
-    for (std::size_t k = 0; k < looked_at; ++k) groups.push_back(least[k].second);
+    for (std::size_t k = 0; k < most_; ++k) groups.push_back(least[k].second);
     std::sort(groups.begin(), groups.end());
 }
 
@@ -159,6 +159,13 @@ std::vector<Offer> OffersBeside::only_rivals(std::size_t position) {
     for (std::size_t k = 0; k < design_.groups().size(); ++k)
         if (design_.groups()[k].only_rival) kept.push_back(k);
     return exact(changed(position, std::nullopt), kept);
+}
+
+std::vector<Offer> OffersBeside::spoiled_visits() {
+    std::vector<std::size_t> visits;
+    for (std::size_t k = 0; k < design_.groups().size(); ++k)
+        if (design_.group(k).kind == GroupKind::spoiled) visits.push_back(k);
+    return exact({model_.members, given_.mean(), std::nullopt, std::nullopt}, visits);
 }
 
 }  // namespace trunnion::diagnosis

@@ -17,7 +17,9 @@ double unusual_size(const Design& design, const Offer& offer);
 class OffersBeside {
   public:
     using Takes = std::function<bool(GroupKind)>;
-    OffersBeside(Design& design, const Model& model);
+    /// Of many groups the exact gain of only `most` is computed: it costs the square of the model
+    /// size.
+    OffersBeside(Design& design, const Model& model, std::size_t most = 20);
 
     /// All visible groups that the model does not contain in another form, best first; only kinds
     /// accepted by `takes`, if given.
@@ -32,6 +34,8 @@ class OffersBeside {
     std::vector<Offer> other_forms(std::size_t position);
     /// Groups that are kept as rivals only, beside the model without a member.
     std::vector<Offer> only_rivals(std::size_t position);
+    /// Visits that may be spoiled (add_spoiled_visits), beside the whole model.
+    std::vector<Offer> spoiled_visits();
 
   private:
     /// What the groups stand beside.
@@ -50,6 +54,7 @@ class OffersBeside {
 
     Design& design_;
     Model model_;
+    std::size_t most_;
     estimation::GivenMembers given_;
     std::vector<Eigen::Index> first_;
     /// What the whole model takes and leaves of a group.

@@ -8,6 +8,7 @@
 #include "base/units.h"
 #include "diagnosis/candidate_groups.h"
 #include "diagnosis/rules.h"
+#include "diagnosis/spoiled_readings.h"
 #include "diagnosis/usual_zero.h"
 
 namespace trunnion::diagnosis {
@@ -98,6 +99,29 @@ void add_offset_groups(Design& design, const Prepared& prepared, const Whitener&
                   std::move(columns));
     }
     add_cycle_group(design, prepared, whitener, count);
+}
+
+void add_spoiled_visits(Design& design, const Prepared& prepared, const std::vector<bool>& used) {
+    constexpr std::size_t most_visits = 60;  // of more, one does not decide what is claimed
+    if (prepared.blocks.size() > most_visits) return;
+    for (const NoiseBlock& block : prepared.blocks) {
+        if (!is_single(block.device)) continue;
+        std::vector<Eigen::Index> rows;
+        for (const Eigen::Index row : block.rows)
+            if (used[static_cast<std::size_t>(row)]) rows.push_back(row);
+        if (rows.empty()) continue;
+        Eigen::MatrixXd columns =
+            Eigen::MatrixXd::Zero(design.data().size(), static_cast<Eigen::Index>(rows.size()));
+        for (std::size_t k = 0; k < rows.size(); ++k)
+            columns(rows[k], static_cast<Eigen::Index>(k)) = 1.0;
+        ColumnGroup group;
+        group.kind = GroupKind::spoiled;
+        group.name = spoiled_visit;
+        group.log_prior = std::log(rules::spoiled_part);
+        const Eigen::Index first = design.add_features(columns);
+        for (Eigen::Index k = 0; k < columns.cols(); ++k) group.features.push_back(first + k);
+        design.keep_as_rival(design.add(std::move(group)));
+    }
 }
 
 }  // namespace trunnion::diagnosis

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/units.h"
 #include "diagnosis/rules.h"
@@ -21,15 +22,35 @@ constexpr double same_frequency = 1e-3;  ///< cycles in one step of a grid
 /// 1e9 mm would have some 1e9 of them.
 constexpr std::size_t most_aliases = 10'000;
 
+/// Greatest length that divides both; what is below `zero` counts as none.
+double common_divisor(double a, double b, double zero) {
+    while (b > zero) {
+        double rest = std::fmod(a, b);
+        if (b - rest < zero) rest = 0.0;
+        a = std::exchange(b, rest);
+    }
+    return a;
+}
+
 /// Step of a grid that contains all positions, possibly with empty nodes; 0 if there is none. On
-/// it, periods below two steps are aliases of longer ones.
+/// it, periods below two steps are aliases of longer ones: targets at whole degrees, 4 to 6 apart,
+/// see 356 periods in a turn as 4.
 double grid_step(const std::vector<double>& places) {
-    double step = places.back() - places.front();
+    constexpr double least_part = 2e-3;  // of the least distance: a finer grid is none
+    constexpr double off_grid = 1e-2;    // of the step
+    std::vector<double> distances;
     for (std::size_t k = 1; k < places.size(); ++k)
-        step = std::min(step, places[k] - places[k - 1]);
-    for (std::size_t k = 1; k < places.size(); ++k)
-        if (std::abs(std::remainder(places[k] - places[k - 1], step)) > 1e-3 * step) return 0.0;
-    return step;
+        distances.push_back(places[k] - places[k - 1]);
+    if (distances.empty()) return 0.0;
+    const double zero = least_part * *std::min_element(distances.begin(), distances.end());
+    double step = 0.0;
+    for (const double d : distances) step = common_divisor(d, step, zero);
+    const double range = places.back() - places.front();
+    step = range / std::round(range / step);
+    const auto misses = [&](double d) {
+        return std::abs(std::remainder(d, step)) > off_grid * step;
+    };
+    return std::any_of(distances.begin(), distances.end(), misses) ? 0.0 : step;
 }
 
 /// True for a period of exactly two steps: the readings alternate, and show it at two phases.
@@ -197,9 +218,9 @@ double chance_of_period(const Prepared& prepared, const effects::Effect& effect,
     const std::vector<double> places = distinct(positions_of(prepared, ripple->axis));
     const auto count = static_cast<double>(places.size());
     const auto [least, most] = std::minmax_element(ripple->offered.begin(), ripple->offered.end());
-    double periods = 0.5 * count;  // of an even grid
-    if (step_of(places) == 0.0)
-        periods = ripple->counts ? *most : (places.back() - places.front()) / *least;
+    const double range = places.back() - places.front(), step = step_of(places);
+    double periods = ripple->counts ? *most : range / *least;
+    if (step > 0.0) periods = std::min(periods, 0.5 * (range / step + 1.0));
     const double free = 0.5 * (count - 3.0);  // mean, cosine and sine are fitted
     return free > 0.0 ? std::min(1.0, periods * std::pow(1.0 - part, free)) : 1.0;
 }

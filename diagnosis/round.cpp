@@ -276,6 +276,7 @@ Searched search_of(const Prepared& p, const Round& round, KeySearch& keys, const
     model = without_idle_members(rows, setting, std::move(model));
     add_jumps_instead(design, p, whitener, keys, model);
     add_unnamed_forms(design, p, whitener);
+    add_spoiled_visits(design, p, round.used);
     setting.refine = {};  // what it refers to ends here
     setting.go_on = {};
     return {std::move(design), std::move(setting), std::move(model)};

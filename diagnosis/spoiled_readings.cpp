@@ -12,16 +12,10 @@
 namespace trunnion::diagnosis {
 namespace {
 
-constexpr double spoiled_part = 0.02;     ///< of all readings, beforehand (assumed)
 constexpr double many_readings = 1000.0;  ///< of which a few spoil no fit
 constexpr double far_off = 4.5;           ///< deviations of the others
 constexpr double least_scale = 0.5;       ///< minimum of that deviation, in sigma ...
 constexpr double least_assumed = 0.05;    ///< ... that nobody states
-
-/// True where each reading is taken for itself, so that one may go wrong alone.
-bool is_single(records::Device device) {
-    return device != records::Device::ballbar && device != records::Device::axis;
-}
 
 /// Residual of the set-up, fitted to the rows of `used` without regard to the worst of them;
 /// sigma, 0 for other rows.
@@ -100,8 +94,9 @@ double likelihood_of_spoiled(const DoubtfulReadings& doubtful, const std::vector
     const auto all = static_cast<double>(std::count(used.begin(), used.end(), true)),
                spoiled = static_cast<double>(doubtful.rows.size());
     // The density of the other readings is without its factor (2 pi)^-1/2, so this one is, too.
-    return spoiled * (std::log(spoiled_part / width) + 0.5 * std::log(2.0 * std::numbers::pi)) +
-           (all - spoiled) * std::log1p(-spoiled_part);
+    return spoiled *
+               (std::log(rules::spoiled_part / width) + 0.5 * std::log(2.0 * std::numbers::pi)) +
+           (all - spoiled) * std::log1p(-rules::spoiled_part);
 }
 
 }  // namespace trunnion::diagnosis

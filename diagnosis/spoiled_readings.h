@@ -6,6 +6,14 @@
 
 namespace trunnion::diagnosis {
 
+/// Name of a rival: the readings of one visit of a pose are wrong. No setup contains it.
+inline constexpr const char* spoiled_visit = "reading.spoiled";
+
+/// True where each reading is taken for itself, so that one may go wrong alone.
+inline bool is_single(records::Device device) {
+    return device != records::Device::ballbar && device != records::Device::axis;
+}
+
 struct DoubtfulReadings {
     std::vector<std::size_t> rows;  ///< device rows, ascending; empty: none are in doubt
     double largest = 0.0;           ///< of their residuals, in sigma

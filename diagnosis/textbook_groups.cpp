@@ -211,15 +211,28 @@ bool is_part_of_turn(const Prepared& p, const effects::Effect& effect) {
     return high - low < pi;
 }
 
+/// Forms of an error of a rotary axis with few of its harmonics: over part of a turn, where they
+/// look alike, the first; else any single one. An eccentric encoder has the first order alone, an
+/// oval bearing the second, and each further harmonic costs evidence.
+std::vector<Takes> forms_by_order(const Prepared& prepared, const effects::Effect& effect) {
+    std::set<int> orders;
+    for (const effects::EffectParameter& p : effect.parameters)
+        if (p.order > 0) orders.insert(p.order);
+    if (orders.size() < 2) return {};
+    if (is_part_of_turn(prepared, effect))
+        return {[](const effects::EffectParameter& p) { return p.order <= 1; }};
+    std::vector<Takes> forms;
+    for (const int order : orders)
+        forms.push_back([order](const effects::EffectParameter& p) { return p.order == order; });
+    return forms;
+}
+
 /// Adds all forms of an effect whose columns are in the design.
 void add_forms(Design& design, const Prepared& prepared, const EffectColumns& ready,
                const Since& since, double log_prior) {
-    auto forms = simpler_forms(*ready.effect);
+    std::vector<Takes> forms = simpler_forms(*ready.effect);
+    for (Takes& form : forms_by_order(prepared, *ready.effect)) forms.push_back(std::move(form));
     const auto& parameters = ready.effect->parameters;
-    const auto second = [](const effects::EffectParameter& q) { return q.order > 1; };
-    if (std::any_of(parameters.begin(), parameters.end(), second) &&
-        is_part_of_turn(prepared, *ready.effect))
-        forms.push_back(std::not_fn(second));
     const bool has_mean_line =
         since.before.empty() &&
         std::any_of(parameters.begin(), parameters.end(),

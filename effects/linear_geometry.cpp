@@ -100,8 +100,8 @@ Effect linear_angular(const kinematics::AxisGeometry& axis) {
 }
 
 Effect squareness(const std::string& plane, const kinematics::AxisGeometry& moving, int about) {
-    const Vector3 along = Vector3::Unit(static_cast<int>(index_of(moving.axis)));
-    const Vector3 stray = Vector3::Unit(about).cross(along);
+    // The body of a table axis moves against its count: its line is tilted, whichever way it goes.
+    const Vector3 stray = Vector3::Unit(about).cross(moving.direction);
     return {{effect_name(plane, EffectKind::squareness), EffectKind::squareness, std::nullopt},
             "Two linear axes are not at right angles",
             "machine not levelled, column or saddle misaligned, a crash",

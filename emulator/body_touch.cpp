@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/units.h"
+#include "kinematics/tool_sense.h"
 #include "probe/cylinders.h"
 
 namespace trunnion::emulator {
@@ -28,7 +29,9 @@ class OnMove {
     OnMove(const motion::AxisMove& move, const AxisSample& start, const Feeler& feeler,
            const Observer& observer)
         : move_(move), start_(start), feeler_(feeler), observer_(observer) {
-        const Vector3 way = move.parallel.linear(move.to) - move.parallel.linear(move.from);
+        const Vector3 way =
+            kinematics::tool_senses(observer.setup().machine.chain)
+                .cwiseProduct(move.parallel.linear(move.to) - move.parallel.linear(move.from));
         length_mm_ = way.norm();
         if (!feeler.is_tool()) contact_.device = records::Device::touch;
         contact_.stylus = !feeler.is_tool();

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "kinematics/tool_sense.h"
+
 namespace trunnion::emulator {
 namespace {
 
@@ -12,10 +14,10 @@ constexpr int most_steps = 12;
 void move_along(const kinematics::Chain& chain, double way_mm, AxisSample& sample,
                 Contact& contact) {
     contact.along_mm += way_mm;
+    const Vector3 way = way_mm * kinematics::tool_senses(chain).cwiseProduct(contact.direction_M);
     for (const Axis axis : {Axis::X, Axis::Y, Axis::Z})
         if (chain.find(axis))
-            sample.position[axis] +=
-                way_mm * contact.direction_M(static_cast<Eigen::Index>(index_of(axis)));
+            sample.position[axis] += way(static_cast<Eigen::Index>(index_of(axis)));
 }
 
 }  // namespace

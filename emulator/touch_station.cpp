@@ -5,6 +5,7 @@
 #include "base/units.h"
 #include "emulator/body_touch.h"
 #include "emulator/replay.h"
+#include "kinematics/tool_sense.h"
 
 namespace trunnion::emulator {
 namespace {
@@ -43,7 +44,10 @@ class Approach {
     double length_mm() const { return length_mm_; }
 
   private:
-    Vector3 gauge(const AxisPositions& q) const { return move_.parallel.linear(q); }
+    /// Of the tool relative to the work, in M.
+    Vector3 gauge(const AxisPositions& q) const {
+        return kinematics::tool_senses(observer_.setup().machine.chain).cwiseProduct(move_.parallel.linear(q));
+    }
     DeviceRow ready() const { return device_row(observer_, row_, log_.sample_of(row_)); }
 
     std::optional<Touch> straight() {

@@ -1,9 +1,13 @@
 // Columns of effects against closed forms.
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
+#include <map>
 
 #include "identification/base_model.h"
 #include "records/samples.h"
 #include "tests/support/campaign.h"
+#include "tests/support/measured_machines.h"
 
 namespace trunnion {
 namespace {
@@ -173,6 +177,55 @@ TEST_CASE("every column of the catalogue is what the emulator does", "[effects]"
             INFO(effect.name << " " << effect.parameters[j].name);
             REQUIRE(worst < 2e-3 * largest + 1e-7);
         }
+    }
+}
+
+namespace {
+
+/// What a tracker that stands on the table reads at some points, mm, on the shipped mill whose
+/// table carries X and Y, with an error in its file.
+std::vector<double> read_on_mill(const std::string& error, const std::string& injection) {
+    std::vector<std::string> notes;
+    std::string text = measured::file_text("machines/mill_xy_table.toml");
+    text += "\n[machine.errors]\n" + error +
+            "\n[[artefact]]\nname = \"R1\"\nkind = \"target\"\ntool_mm = [0, 0, -150]\n"
+            "[[instrument]]\nname = \"CMM\"\nframe = \"W\"\n";
+    setup::Setup setup = setup::parse_setup(text, "mill.toml", notes);
+    if (!injection.empty()) setup = campaign::with_effect(setup, injection);
+    std::string rows =
+        "index,time_s,test,device,feature,x_mm,y_mm,z_mm,w_mm,dir_x,dir_y,dir_z,value_mm\n";
+    int index = 0;
+    for (const char* at : {"0,0,0", "100,0,0", "0,100,0", "0,0,100", "-200,150,-80"})
+        for (const char* along : {"1,0,0", "0,1,0", "0,0,1"}) {
+            rows += fmt::format("{},{},T,point,R1,{},0,{},\n", index, 10 * index, at, along);
+            ++index;
+        }
+    const records::ReadingTable table =
+        records::parse_readings(rows, "r.csv", notes, setup.machine.chain.names());
+    const emulator::Replay replay(setup, table);
+    return replay.predict(setup.machine, identification::offsets_to(replay, setup),
+                          effects::active_models(setup));
+}
+
+}  // namespace
+
+TEST_CASE("a squareness is the location error of its axis, on a table that moves the other way too",
+          "[effects]") {
+    const std::map<std::string, std::string> names{{"EC0Y_rad = 1e-4", "XY.squareness=100urad"},
+                                                   {"EA0Z_rad = 1e-4", "YZ.squareness=100urad"},
+                                                   {"EB0Z_rad = 1e-4", "ZX.squareness=100urad"}};
+    const std::vector<double> ideal = read_on_mill("", "");
+    for (const auto& [error, injection] : names) {
+        const std::vector<double> declared = read_on_mill(error, ""),
+                                  injected = read_on_mill("", injection);
+        double most = 0.0;
+        for (std::size_t i = 0; i < ideal.size(); ++i) {
+            INFO(error << " reading " << i);
+            CHECK(injected[i] - ideal[i] == Approx(declared[i] - ideal[i]).margin(1e-6));
+            most = std::max(most, std::abs(declared[i] - ideal[i]));
+        }
+        INFO(error);
+        CHECK(most > 0.005);
     }
 }
 
