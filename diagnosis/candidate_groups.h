@@ -47,6 +47,10 @@ void add_table_groups(Design& design, const Prepared& prepared, const Whitener& 
 /// other devices.
 void add_offset_groups(Design& design, const Prepared& prepared, const Whitener& whitener);
 
+/// Takes angles of an axis out of the search where positions were read along one line only: what an
+/// angle does there is the positioning of the axis by ISO 230-1, and its rival in any form.
+void take_line_for_positioning(Design& design, const Prepared& prepared);
+
 /// Adds the readings of each visit as values of their own, as rivals only: what a single visit
 /// tells may be a bad reading. None for readings of many visits, or of devices that read along a
 /// way. `used`: readings that are not set aside.

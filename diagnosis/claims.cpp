@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "diagnosis/cause_evidence.h"
 #include "diagnosis/contenders.h"
@@ -52,6 +53,7 @@ effects::EffectKind motion_of(const ColumnGroup& group) {
 /// form without a name stands against those that it imitates.
 bool may_be_instead(const ColumnGroup& own, const ColumnGroup& other) {
     using enum effects::EffectKind;
+    if (other.by_definition) return false;  // of share_with_angles()
     if (!is_cause(own.kind)) return !other.machine_jump && !other.unnamed;
     const effects::EffectKind motion = motion_of(own);
     if (other.machine_jump) return motion == artefact_moved || motion == thermal_drift;
@@ -112,13 +114,34 @@ void name_contender(Design& design, const Model& model, const Contender& contend
         if (design.group(k).kind == GroupKind::spoiled) name_rival(design, k, claim);
 }
 
+/// Positioning along the only line that was read may be made by an angle of the axis: that needs no
+/// evidence of its own, and is a rival with half the prior.
+void share_with_angles(const Design& design, const ColumnGroup& own, Claim& claim) {
+    const effects::EffectKind motion = motion_of(own);
+    if (own.kind == GroupKind::periodic ||
+        (motion != effects::EffectKind::scale && motion != effects::EffectKind::positioning))
+        return;
+    const Axis axis = own.effect ? *own.effect->axis : own.table.axis.axis;
+    for (std::size_t k = 0; k < design.groups().size(); ++k) {
+        const ColumnGroup& angles = design.group(k);
+        if (!angles.by_definition || angles.unnamed || angles.kind != own.kind ||
+            !design.groups()[k].moves_readings() ||
+            (angles.effect ? *angles.effect->axis : angles.table.axis.axis) != axis)
+            continue;
+        name_rival(design, k, claim);
+        claim.probability *= rules::of_line;
+        return;
+    }
+}
+
 /// A free form of which the readings do not tell the family (seen through one tool length, an
 /// angular error is a straightness) has the name of what its rivals have in common. `axis`:
 /// probability of any free form of its axis by the evidence and by left-out readings.
 void name_axis(const Design& design, const Challenged& found, double axis, Claim& claim) {
     const ColumnGroup& own = design.group(found.model.members[claim.position]);
-    if (std::none_of(claim.rival_groups.begin(), claim.rival_groups.end(),
-                     [&](std::size_t k) { return are_forms_of_one_axis(design.group(k), own); }))
+    if (std::none_of(claim.rival_groups.begin(), claim.rival_groups.end(), [&](std::size_t k) {
+            return !design.group(k).by_definition && are_forms_of_one_axis(design.group(k), own);
+        }))
         return;
     // Where no model without the axis was looked for, the best one without the family is sure to be
     // no better.
@@ -230,19 +253,44 @@ std::vector<Offer> sharing(const Design& design, const ColumnGroup& own,
     return all;
 }
 
+/// What the forms of a cause do together: the textbook form and the table of one error may take
+/// back parts of each other.
+Eigen::VectorXd part_of_cause(const Design& design, const Model& model, const Sizes& sizes,
+                              const std::string& name) {
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(sizes.remainder.size());
+    for (std::size_t k = 0; k < model.members.size(); ++k)
+        if (const ColumnGroup& group = design.group(model.members[k]);
+            is_cause(group.kind) && group.name == name)
+            sum += sizes.parts.col(static_cast<Eigen::Index>(k));
+    return sum;
+}
+
 /// True for a cause that takes back what the others do: the correction of a form that is not
 /// theirs. A small one of known form may be against a large one by chance.
 bool works_against_others(const Design& design, const Model& model, const Sizes& sizes,
                           std::size_t position) {
     constexpr double by_chance = -0.3;  // cosine between both
     if (sizes.along[position] > 0.0) return false;
-    if (design.group(model.members[position]).kind == GroupKind::table) return true;
-    const Eigen::VectorXd own = sizes.parts.col(static_cast<Eigen::Index>(position));
+    const ColumnGroup& group = design.group(model.members[position]);
+    const Eigen::VectorXd own = part_of_cause(design, model, sizes, group.name);
     Eigen::VectorXd others = -own;
     for (std::size_t k = 0; k < model.members.size(); ++k)
         if (is_cause(design.group(model.members[k]).kind))
             others += sizes.parts.col(static_cast<Eigen::Index>(k));
-    return own.dot(others) < by_chance * own.norm() * others.norm();
+    const double along = own.dot(others);
+    if (own.squaredNorm() + along > 0.0) return false;  // with its other forms it does something
+    return group.kind == GroupKind::table || along < by_chance * own.norm() * others.norm();
+}
+
+/// Squares of all causes, each by itself, relative to the gap.
+double sum_of_causes(const Design& design, const Model& model, const Sizes& sizes) {
+    double sum = 0.0;
+    std::set<std::string> counted;
+    for (const std::size_t m : model.members)
+        if (const ColumnGroup& group = design.group(m);
+            is_cause(group.kind) && counted.insert(group.name).second)
+            sum += part_of_cause(design, model, sizes, group.name).squaredNorm();
+    return sum / std::max(1e-12, sizes.whole);
 }
 
 }  // namespace
@@ -256,7 +304,6 @@ std::vector<Claim> claims_of(const Searching& search, const Model& model, const 
     // Where far more remains than noise may be, sigma is no measure of what is small.
     const double left = model.variances.nu / std::sqrt(sizes.floor);
     const double least_rms = rules::least_rms * (left > 2.0 ? left : 1.0);
-    double own = 0.0;
     for (std::size_t k = 0; k < model.members.size(); ++k) {
         const ColumnGroup& group = design.group(model.members[k]);
         if (!is_cause(group.kind)) continue;
@@ -266,7 +313,6 @@ std::vector<Claim> claims_of(const Searching& search, const Model& model, const 
         claim.share = std::clamp(sizes.along[k] / std::max(1e-12, sizes.whole), 0.0, 1.0);
         claim.own = sizes.square[k] / std::max(1e-12, sizes.whole);
         claim.rms = std::sqrt(sizes.square[k] / std::max(1.0, design.rows()));
-        own += claim.own;
         if (claim.share < rules::least_share && claim.rms < least_rms) continue;
         const std::vector<Offer> others = beside.without(k);
         std::vector<Offer> instead = others;
@@ -286,6 +332,7 @@ std::vector<Claim> claims_of(const Searching& search, const Model& model, const 
                                      told.axis > 0.0 ? seen_axis * told.cause / told.axis : 0.0);
         if (works_against_others(design, model, sizes, k))
             claim.probability = std::min(claim.probability, doubtful);
+        share_with_angles(design, group, claim);
         name_rivals(design, worth[k], instead, claim);
         name_pair(search, model, two, claim);
         name_contender(design, model, contender, sizes.parts.col(static_cast<Eigen::Index>(k)),
@@ -294,7 +341,8 @@ std::vector<Claim> claims_of(const Searching& search, const Model& model, const 
         if (heldout.found.ended) claim.probability = std::min(claim.probability, unchallenged_most);
         claims.push_back(std::move(claim));
     }
-    if (own > rules::most_own)  // contributions cancel, so none of them is reliable
+    if (sum_of_causes(design, model, sizes) >
+        rules::most_own)  // contributions cancel, so none of them is reliable
         for (Claim& claim : claims) claim.probability = std::min(claim.probability, doubtful);
     // What is rather not there stands behind what is claimed.
     std::stable_sort(claims.begin(), claims.end(), [](const Claim& a, const Claim& b) {

@@ -48,6 +48,8 @@ struct ColumnGroup {
                                               ///< by itself it does not tell where
     bool machine_jump = false;                ///< of diagnosis/machine_jump.h
     bool unnamed = false;                     ///< of add_unnamed_forms
+    bool by_definition = false;               ///< angles of an axis that was read along one line:
+                                              ///< by ISO 230-1 they are its positioning there
     const effects::Effect* effect = nullptr;  ///< textbook, periodic
     std::vector<double> keys;                 ///< of the effect; linear parameters 0
     std::vector<std::size_t> parameters;      ///< of the effect, one for each feature

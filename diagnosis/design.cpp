@@ -25,9 +25,9 @@ std::vector<Eigen::Index> first_features(Eigen::Index count) {
 
 }  // namespace
 
-bool Design::Entry::visible() const {
+bool Design::Entry::moves_readings() const {
     const double seen = gram.trace();
-    return !hidden && seen > visible_square && seen > visible_part * visible_part * whole;
+    return seen > visible_square && seen > visible_part * visible_part * whole;
 }
 
 Design::Design(Eigen::MatrixXd known, Eigen::VectorXd data, double rows)

@@ -53,7 +53,8 @@ class Design {
         std::optional<estimation::ReducedGroup> reduced;  ///< of its gram
         /// True when a typical change moves the readings noticeably and the set-up cannot absorb
         /// it.
-        bool visible() const;
+        bool moves_readings() const;
+        bool visible() const { return !hidden && moves_readings(); }
     };
     const std::vector<Entry>& groups() const { return groups_; }
     const ColumnGroup& group(std::size_t k) const { return groups_[k].group; }
@@ -103,6 +104,11 @@ class Design {
     /// The same as hide(), but it may be named as a rival.
     void keep_as_rival(std::size_t group) {
         groups_[group].hidden = groups_[group].only_rival = true;
+    }
+    /// The same for angles that are positioning by definition.
+    void keep_as_positioning(std::size_t group) {
+        keep_as_rival(group);
+        groups_[group].group.by_definition = true;
     }
     /// Fraction of a group's squared columns outside the span of some features.
     double outside(std::size_t group, const std::vector<Eigen::Index>& features) const;

@@ -296,7 +296,8 @@ Told told_of(const Outcome& found, const records::ReadingTable* holdout) {
 }
 
 /// The judgement with causes that do not hold between their places, because a ripple that these do
-/// not resolve is the more likely one: both are the same at the places and differ between them.
+/// not resolve is the more likely one, or anything else than the ripple that was found: both are
+/// the same at the places and differ between them.
 std::optional<Judgement> doubted_by_ripples(const Outcome& f, const std::vector<Claim>& claims) {
     Judgement judgement = f.judgement;
     bool any = false;
@@ -304,11 +305,14 @@ std::optional<Judgement> doubted_by_ripples(const Outcome& f, const std::vector<
         if (claim.probability >= rules::claimed || claim.share < rules::between_part ||
             !judgement.interpolates[claim.position])
             continue;
-        const bool rippled = std::any_of(
-            claim.rival_groups.begin(), claim.rival_groups.end(), [&](std::size_t group) {
-                return f.design.groups()[group].only_rival &&
-                       f.design.group(group).kind == GroupKind::periodic;
-            });
+        const bool is_ripple =
+            f.design.group(f.model.members[claim.position]).kind == GroupKind::periodic;
+        const bool rippled =
+            is_ripple || std::any_of(claim.rival_groups.begin(), claim.rival_groups.end(),
+                                     [&](std::size_t group) {
+                                         return f.design.groups()[group].only_rival &&
+                                                f.design.group(group).kind == GroupKind::periodic;
+                                     });
         if (!rippled) continue;
         any = true;
         for (std::size_t k = 0; k < f.model.members.size(); ++k)

@@ -39,8 +39,7 @@ double grid_step(const std::vector<double>& places) {
     constexpr double least_part = 2e-3;  // of the least distance: a finer grid is none
     constexpr double off_grid = 1e-2;    // of the step
     std::vector<double> distances;
-    for (std::size_t k = 1; k < places.size(); ++k)
-        distances.push_back(places[k] - places[k - 1]);
+    for (std::size_t k = 1; k < places.size(); ++k) distances.push_back(places[k] - places[k - 1]);
     if (distances.empty()) return 0.0;
     const double zero = least_part * *std::min_element(distances.begin(), distances.end());
     double step = 0.0;

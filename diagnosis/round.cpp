@@ -248,6 +248,7 @@ Searched search_of(const Prepared& p, const Round& round, KeySearch& keys, const
     add_offset_groups(design, p, whitener);
     add_driver_groups(design, p, whitener, owned);
     add_wandering_groups(design, p, whitener, owned);
+    take_line_for_positioning(design, p);
     SearchSetting setting = search_setting(design, round.noise.prior);
     setting.go_on = go_on;
     setting.refine = [&](const Model& m, std::size_t position) {
@@ -276,6 +277,7 @@ Searched search_of(const Prepared& p, const Round& round, KeySearch& keys, const
     model = without_idle_members(rows, setting, std::move(model));
     add_jumps_instead(design, p, whitener, keys, model);
     add_unnamed_forms(design, p, whitener);
+    take_line_for_positioning(design, p);
     add_spoiled_visits(design, p, round.used);
     setting.refine = {};  // what it refers to ends here
     setting.go_on = {};

@@ -20,6 +20,8 @@ constexpr double odd_period_prior = -3.0;           // ln 0.05
 constexpr double table_prior = -3.912023005428146;  ///< ln 0.02: free form, driver
 
 // A gap is reported when both the evidence and the left-out readings support it.
+constexpr double of_line = 2.0 / 3.0;   ///< probability of positioning against angles of its axis,
+                                        ///< where one line was read (assumed)
 constexpr double spoiled_part = 0.02;   ///< of all readings, beforehand (assumed)
 constexpr double least_evidence = 3.0;  ///< nats, for the whole model
 constexpr double course_evidence =

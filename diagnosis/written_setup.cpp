@@ -217,7 +217,11 @@ struct Alone {
 /// expects.
 bool holds_elsewhere(const Outcome& f, const Model& model, const Folds& paths, const Alone& alone) {
     const double after = loss_of(f, model, paths).mean();
-    if (has_tables(f, f.model)) {
+    // What known forms explain without the tables does not rest on these.
+    const double own = alone.blocks - loss_of(f, model, f.prepared.folds).mean();
+    const bool known_forms =
+        !has_tables(f, model) && own >= rules::explained * (alone.blocks - alone.noise);
+    if (has_tables(f, f.model) && !known_forms) {
         const double gap = std::min(alone.blocks, alone.paths) - alone.noise;
         return after - alone.noise <= (1.0 - rules::between_least) * std::max(0.0, gap);
     }

@@ -122,7 +122,7 @@ Catalogue make_catalogue(const setup::Setup& setup, const DataExtent& extent) {
     if (basic) append_squareness(list, chain);
     list.push_back(servo_mismatch(chain));
     list.push_back(servo_contour(chain));
-    list.push_back(thermal_drift(extent));
+    list.push_back(thermal_drift(extent, chain));
     list.push_back(thermal_expansion(chain));
     if (const kinematics::AxisGeometry* tilting = tilting_axis(chain))
         list.push_back(gravity_sag(*tilting));

@@ -40,7 +40,8 @@ Effect linear_lateral_play(const kinematics::AxisGeometry& axis);
 Effect squareness(const std::string& plane, const kinematics::AxisGeometry& moving, int about);
 Effect servo_mismatch(const kinematics::Chain& chain);
 Effect servo_contour(const kinematics::Chain& chain);
-Effect thermal_drift(const DataExtent& extent);
+/// Where a rotary axis carries the tool, the structure drifts in M besides the tip in S.
+Effect thermal_drift(const DataExtent& extent, const kinematics::Chain& chain);
 Effect thermal_expansion(const kinematics::Chain& chain);
 Effect machine_expansion(const kinematics::Chain& chain);
 Effect gravity_sag(const kinematics::AxisGeometry& tilting);

@@ -1,27 +1,50 @@
 // Thermal effects: drift of the spindle with time, expansion of the scales.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "effects/models.h"
 
 namespace trunnion::effects {
 
-Effect thermal_drift(const DataExtent& extent) {
+namespace {
+
+/// The axis next to the bed on the tool side, where the spindle side turns: what moves it moves all
+/// that it carries, in the frame M. Empty where S and M are parallel.
+std::optional<Axis> carrier_of_turning_tool(const kinematics::Chain& chain) {
+    const bool turns =
+        std::any_of(chain.tool.begin(), chain.tool.end(),
+                    [](const kinematics::AxisGeometry& axis) { return axis.rotary; });
+    return turns ? std::optional(chain.tool.front().axis) : std::nullopt;
+}
+
+}  // namespace
+
+Effect thermal_drift(const DataExtent& extent, const kinematics::Chain& chain) {
     const double span_s = std::max(600.0, extent.end_s - extent.start_s);
     Effect effect{identity_of(EffectKind::thermal_drift),
                   "Tool and table drift apart slowly as the machine warms up",
                   "spindle and structure warming after switching on or a change of load",
                   "warm up before measuring; return to a reference sphere every 15 minutes",
-                  "tool tip shifted by d_mm (1 - exp(-time_s / tau_s))",
+                  "tool tip shifted by d_mm (1 - exp(-time_s / tau_s)), in S",
                   {},
                   {}};
     for (int d = 0; d < 3; ++d) effect.parameters.push_back({"d_mm", "mm", 15e-3, d, {}, true});
     effect.parameters.push_back(
         {"tau_s", "s", 1800.0, -1, geometric_grid(span_s / 60.0, span_s * 3.0, 9), true});
-    effect.add = [](const AxisSample& sample, const emulator::Contact&,
-                    std::span<const double> value, kinematics::Perturbation& out) {
+    const std::optional<Axis> carrier = carrier_of_turning_tool(chain);
+    if (carrier) {
+        effect.formula += "; spindle side by structure_mm (...), in M";
+        for (int d = 0; d < 3; ++d)
+            effect.parameters.push_back({"structure_mm", "mm", 15e-3, d, {}, true});
+    }
+    effect.add = [carrier](const AxisSample& sample, const emulator::Contact&,
+                           std::span<const double> value, kinematics::Perturbation& out) {
         const double grown = -std::expm1(-sample.time_s / value[3]);
         out.tip_shift_mm += grown * Vector3(value[0], value[1], value[2]);
+        if (carrier)
+            out.motion[index_of(*carrier)].shift_mm +=
+                grown * Vector3(value[4], value[5], value[6]);
     };
     return effect;
 }

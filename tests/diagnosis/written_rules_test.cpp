@@ -201,7 +201,10 @@ TEST_CASE("beside free forms a cause is not written where paths are missed by mo
     const Eigen::MatrixXd form = rows.noise(1);
     for (const double missed : {0.0, 10.0}) {
         const Eigen::VectorXd shown = 5.0 * rows.noise(1).col(0) + 2.0 * missed * set_up.col(0);
-        diagnosis::Design design{set_up, shown + missed * set_up.col(0) + rows.noise(1).col(0),
+        // So much of the gap that the known form alone does not explain it.
+        const Eigen::VectorXd curve = (missed > 0.0 ? 6.0 : 3.0) * form.col(0);
+        diagnosis::Design design{set_up,
+                                 shown + curve + missed * set_up.col(0) + rows.noise(1).col(0),
                                  static_cast<double>(rows.count)};
         const std::size_t cause =
             add(design, of_kind(GroupKind::textbook, &rows.effect("C.backlash")), shown);
@@ -240,10 +243,10 @@ TEST_CASE("an effect that a single path shows is written where known forms expla
     diagnosis::Judgement judgement = judged(rows, design, model);
     REQUIRE(judgement.part > 0.9);
     CHECK(writes(rows, design, model, judgement));
-    model = fitted(design, {cause, table});  // a table, which itself is not written
+    model = fitted(design, {cause, table});  // a table that does nothing, and is not written
     judgement.interpolates.push_back(false);
     judgement.large.push_back(false);
-    CHECK_FALSE(writes(rows, design, model, judgement));
+    CHECK(writes(rows, design, model, judgement));
     judgement.interpolates.pop_back();
     judgement.large.pop_back();
     model = fitted(design, {cause});

@@ -229,4 +229,39 @@ TEST_CASE("a squareness is the location error of its axis, on a table that moves
     }
 }
 
+TEST_CASE("a structure that drifts moves the spindle side in M, however the heads stand",
+          "[effects]") {
+    std::vector<std::string> notes;
+    const std::string text =
+        measured::file_text("machines/head_head.toml") +
+        "\n[[artefact]]\nname = \"R1\"\nkind = \"target\"\ntool_mm = [0, 0, -150]\n";
+    const setup::Setup setup = setup::parse_setup(text, "head.toml", notes);
+    const setup::Setup warm =
+        campaign::with_effect(setup, "thermal.drift: structure_mm=[0.01, -0.02, 0.03], tau_s=600");
+    std::string names, rows;
+    for (const kinematics::AxisGeometry& axis : setup.machine.chain.axes())
+        names += "," + lower_case(axis.name) + (axis.rotary ? "_deg" : "_mm");
+    int index = 0;
+    for (const double angle_deg : {0.0, 25.0, -40.0})
+        for (const char* along : {"1,0,0", "0,1,0", "0,0,1"}) {
+            rows += fmt::format("{},{},T,point,R1", index, 300 * index);
+            for (const kinematics::AxisGeometry& axis : setup.machine.chain.axes())
+                rows += fmt::format(",{}", axis.rotary ? angle_deg : 50.0);
+            rows += fmt::format(",{},\n", along);
+            ++index;
+        }
+    const records::ReadingTable table = records::parse_readings(
+        "index,time_s,test,device,feature" + names + ",dir_x,dir_y,dir_z,value_mm\n" + rows,
+        "r.csv", notes, setup.machine.chain.names());
+    const emulator::Replay replay(setup, table), later(warm, table);
+    const std::vector<double> cold = replay.predict({}),
+                              after = later.predict(effects::active_models(warm));
+    for (std::size_t i = 0; i < cold.size(); ++i) {
+        INFO(i);
+        const double grown = -std::expm1(-300.0 * static_cast<double>(i) / 600.0);
+        const double drift_mm[] = {0.01, -0.02, 0.03};
+        CHECK(after[i] - cold[i] == Approx(grown * drift_mm[i % 3]).margin(1e-6));
+    }
+}
+
 }  // namespace trunnion
