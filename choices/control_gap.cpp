@@ -31,6 +31,7 @@ constexpr double chance =
 constexpr double quite_sure = 0.8;    ///< probability of a cause of such an excess
 constexpr double all_rows = 0.95;     ///< part of the rows that an explanation reaches
 constexpr double surely_more = 1e-9;  ///< p of a mean that no noise has
+constexpr double other_start = 1.2;   ///< of the loss: most with a start that may be right
 
 /// The control with all steps but one.
 setup::Setup without(const setup::Setup& setup, const GapSearch& found, std::size_t left_out) {
@@ -243,9 +244,11 @@ Answer judged(const Asked& asked, LogOfProgram log) {
     gap.setup = question.setup;
     gap.notes = log.notes;
     if (log.view.spacing > least_told_mm)
-        gap.notes.push_back(fmt::format(
-            "a move of less than {:.2g} mm, out and back between two samples, would not be seen",
-            log.view.spacing));
+        gap.notes.push_back(
+            fmt::format("a move of less than {:.2g} mm, out and back between two samples, would "
+                        "not be seen; the "
+                        "end of a sampled motion is judged to the distance of its own samples",
+                        log.view.spacing));
     const ComparedRun first = asked.comparer(log).run(question.setup);
     const std::vector<int> blocks = blocks_of(log.view, first);
     // A motion that the log samples coarsely looks like noise, and would hide a gap.
@@ -274,6 +277,20 @@ Answer judged(const Asked& asked, LogOfProgram log) {
     return out;
 }
 
+/// With the control at its machine zero at first, if this explains the log and its first row as the
+/// start does not.
+void try_other_start(const Asked& asked, const LogOfProgram& log, Answer& answer) {
+    if (!is_left(answer.gap) || log.view.ends || log.view.begins_within || log.view.from_zero)
+        return;
+    LogOfProgram other = from_machine_zero(log);
+    const ComparedRun own = asked.comparer(log).run(answer.reached),
+                      here = asked.comparer(other).run(answer.reached);
+    const double noise = static_cast<double>(log.view.axes.size() * log.view.rows.size());
+    if (same_way(own.path, here.path) || here.loss > other_start * own.loss + noise) return;
+    Answer second = judged(asked, std::move(other));
+    if (!is_left(second.gap)) answer = std::move(second);
+}
+
 }  // namespace
 
 ControlGap control_gap(const GapQuestion& question, interpreter::ProgramSource& programs,
@@ -289,7 +306,8 @@ ControlGap control_gap(const GapQuestion& question, interpreter::ProgramSource& 
     Answer answer = judged(asked, log);
     // Late numbers may show only beside the causes.
     if (is_left(answer.gap) && settle_lateness(asked.source(answer.reached), log))
-        answer = judged(asked, std::move(log));
+        answer = judged(asked, log);
+    try_other_start(asked, log, answer);
     return std::move(answer.gap);
 }
 

@@ -1,0 +1,44 @@
+// How far the samples on a motion have come, and where a motion may end between two of them.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "choices/pairing.h"
+#include "choices/space.h"
+
+namespace trunnion::choices {
+
+/// Of the rows placed on a motion so far.
+struct Progress {
+    double along_mm = 0.0;   ///< from the start of the present segment: the farthest row
+    double stride_mm = 0.0;  ///< largest distance of two successive rows of the motion
+    std::uint32_t rows = 0;
+
+    /// After the node at the end of a segment.
+    Progress after(bool end_of_motion) const {
+        return end_of_motion ? Progress{} : Progress{0.0, stride_mm, rows};
+    }
+};
+
+/// Distances between the rows of a log of samples, mm or deg.
+class Strides {
+  public:
+    Strides() = default;
+    Strides(const LogView& log, const Space& space);
+
+    /// From a row to the next one; the last has none.
+    double next(std::size_t row) const { return next_[row]; }
+    /// Up to which the end of a motion may be missed after this row: its motion's own samples tell,
+    /// if there are two; else the samples around, and those of the whole log.
+    double allowed(std::size_t row, const Progress& motion) const {
+        return motion.rows > 1 ? std::min(around_[row], motion.stride_mm) : around_[row];
+    }
+
+  private:
+    std::vector<double> next_, around_;
+};
+
+}  // namespace trunnion::choices
