@@ -243,7 +243,7 @@ Answer judged(const Asked& asked, LogOfProgram log) {
     ControlGap& gap = out.gap;
     gap.setup = question.setup;
     gap.notes = log.notes;
-    if (log.view.spacing > least_told_mm)
+    if (log.view.spacing > least_told_mm && !log.view.marked)
         gap.notes.push_back(
             fmt::format("a move of less than {:.2g} mm, out and back between two samples, would "
                         "not be seen; the "
@@ -280,13 +280,15 @@ Answer judged(const Asked& asked, LogOfProgram log) {
 /// With the control at its machine zero at first, if this explains the log and its first row as the
 /// start does not.
 void try_other_start(const Asked& asked, const LogOfProgram& log, Answer& answer) {
-    if (!is_left(answer.gap) || log.view.ends || log.view.begins_within || log.view.from_zero)
+    if (answer.gap.verdict == GapVerdict::no_gap || log.view.ends || log.view.begins_within ||
+        log.view.from_zero)
         return;
     LogOfProgram other = from_machine_zero(log);
     const ComparedRun own = asked.comparer(log).run(answer.reached),
                       here = asked.comparer(other).run(answer.reached);
     const double noise = static_cast<double>(log.view.axes.size() * log.view.rows.size());
-    if (same_way(own.path, here.path) || here.loss > other_start * own.loss + noise) return;
+    const double most = is_left(answer.gap) ? other_start * own.loss + noise : 0.1 * own.loss;
+    if (same_way(own.path, here.path) || here.loss > most) return;
     Answer second = judged(asked, std::move(other));
     if (!is_left(second.gap)) answer = std::move(second);
 }

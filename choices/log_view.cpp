@@ -12,6 +12,7 @@
 #include "base/alarm.h"
 #include "base/units.h"
 #include "choices/missing_rows.h"
+#include "choices/rows_at_ends.h"
 #include "motion/motion.h"
 
 namespace trunnion::choices {
@@ -234,6 +235,12 @@ LogOfProgram log_of_program(const records::PositionLog& log,
     out.view.key_of = [keys](const PathBlock& block) { return keys->of_block(block); };
     set_noise(log, out);
     out.notes = mark_missing_rows(out.view);
+    if (!out.view.marked && has_rows_at_ends(out.view)) {
+        out.view.marked = true;
+        out.notes.push_back(log.path +
+                            ": every corner is one of the rows, so ends of moves are compared "
+                            "exactly");
+    }
     if (!log.ends) out.path.start = log.rows.front().at;
     out.path.ends_only = log.ends;
     out.path.chord_mm = chord_of(out.sigma);

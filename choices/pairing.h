@@ -26,7 +26,7 @@ struct LogView {
     bool begins_within = false;  ///< the log begins within the program: what comes before its first
                                  ///< row is not judged
     bool from_zero = false;      ///< the control started at its machine zero, not at the first row
-    bool marked = false;         ///< every end of a move has a row that is marked as one
+    bool marked = false;         ///< every end of a move has a row
     int keys = 0;                ///< number of blocks named by the log; 0: none
     double spacing = 0.0;  ///< mm or deg: least distance of samples that is assumed everywhere
     /// Number of a block of the program; -1: not named by the log.

@@ -28,6 +28,12 @@ class SampledLog {
         if (length > 0.0) left_ = (along - length) / step_mm;
         at_ = end;
     }
+    const Place& at() const { return at_; }
+    /// One row.
+    void add(int block, const Place& end) {
+        add(block, 1.0, end);
+        at_ = end;
+    }
     records::PositionLog log;
 
   private:

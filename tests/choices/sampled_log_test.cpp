@@ -2,6 +2,9 @@
 // missing, numbers that a program has twice, and the start.
 #include "tests/choices/sampled_log.h"
 
+#include "base/random.h"
+#include "base/units.h"
+
 namespace trunnion {
 
 using choices::GapVerdict;
@@ -87,6 +90,36 @@ TEST_CASE("a log of samples: a depth that was not reached shows at the distance 
     CHECK(log_bench::has_note(gap, "judged to the distance of its own samples"));
 }
 
+TEST_CASE(
+    "a log of samples: with a row at every corner, a depth shows at less than their distance") {
+    const auto log_with = [](double bottom) {
+        SampledLog log({0, 0, 0});
+        // As a log of equal parts of each move.
+        const auto line = [&](int block, const log_bench::Place& end, int parts) {
+            const log_bench::Place from = log.at();
+            for (int k = 1; k <= parts; ++k) {
+                log_bench::Place at;
+                for (std::size_t a = 0; a < 3; ++a)
+                    at[a] = from[a] + (end[a] - from[a]) * k / parts;
+                log.add(block, at);
+            }
+        };
+        line(20, {10, 10, 0}, 14);
+        line(30, {10, 10, -20}, 20);
+        for (const auto& [block, x, y] :
+             {std::tuple{40, 10., 10.}, std::tuple{50, 25., 12.}, std::tuple{60, 40., 12.}}) {
+            line(block, {x, y, -18}, block == 40 ? 2 : 15);
+            line(block, {x, y, block == 60 ? bottom : -32.}, 14);
+            line(block, {x, y, -18}, 14);
+        }
+        line(80, {40, 12, -1}, 17);
+        line(90, {0, 12, -1}, 40);
+        return log.log;
+    };
+    CHECK(verdict(log_with(-32.0), holes) == GapVerdict::no_gap);
+    CHECK(verdict(log_with(-31.2), holes) == GapVerdict::unexplained);
+}
+
 TEST_CASE("a log of samples: a way back within a block is a gap, a rest and its noise are none") {
     const std::string line = "N10 G21 G90 G54\nN20 G1 X20. F200\nN30 Y20.\nN40 X0.\nN50 M30\n";
     const auto log_with = [&](const std::vector<double>& turns) {
@@ -163,8 +196,8 @@ N110 M30
         line(40, 5, 30, 0);
         line(50, 5, 30, -8);
         line(60, 20, 10, -8);
-        for (int k = 1; k <= 180; ++k)
-            line(70, 14 + 6 * std::cos(k * pi / 90), 10 + 6 * std::sin(k * pi / 90), -8);
+        for (int k = 1; k <= 720; ++k)
+            line(70, 14 + 6 * std::cos(k * pi / 360), 10 + 6 * std::sin(k * pi / 360), -8);
         line(80, 50, 12, -8);
         line(90, 50, 40, -3);
         line(100, 0, 40, -3);
