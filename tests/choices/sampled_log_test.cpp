@@ -221,6 +221,34 @@ N110 M30
     }
 }
 
+TEST_CASE("a log of samples: rows without a number where the next block goes back") {
+    const std::string strokes = R"(N10 G21 G90 G17 G54
+N20 G1 X10. F300
+N30 Z-12.
+N40 Z0.
+N50 X20.
+N60 Z-9.
+N70 Z-2.
+N80 X30.
+N90 M30
+)";
+    SampledLog log({0, 0, 0});
+    log.to(20, {10, 0, 0}, 0.4);
+    log.to(30, {10, 0, -12}, 0.4);
+    log.to(40, {10, 0, 0}, 0.4);
+    log.to(50, {20, 0, 0}, 0.4);
+    log.to(60, {20, 0, -9}, 0.4);
+    log.to(70, {20, 0, -2}, 0.4);
+    log.to(80, {30, 0, -2}, 0.4);
+    records::PositionLog late = log.log, sparse = log.log;
+    for (std::size_t i = late.rows.size() - 1; i >= 2; --i)
+        late.rows[i].block = log.log.rows[i - 2].block;
+    CHECK(verdict(late, strokes) == GapVerdict::no_gap);
+    for (std::size_t i = 0; i < sparse.rows.size(); ++i)
+        if (i % 10 > 2) sparse.rows[i].block = 0;
+    CHECK(verdict(sparse, strokes) == GapVerdict::no_gap);
+}
+
 TEST_CASE("a log of samples: numbers that a program has twice") {
     const std::string twice = R"(N10 G21 G90 G17 G54
 N20 G1 X20. F300
