@@ -18,21 +18,31 @@ constexpr std::size_t rows_a_jump = 100;    ///< with more jumps they are its wa
 constexpr std::size_t most_jumps = 10;
 constexpr double far_longer = 4.0;  ///< than every other distance of samples
 constexpr double straight = 0.1;    ///< of the shorter distance: a row beside its neighbours' chord
+constexpr double like = 1.5;        ///< ratio of two distances at about the same speed
+constexpr double most_like = 0.75;  ///< part of the rows of even samples
 constexpr std::size_t told_jumps = 3;
 
-/// Most rows lie on straight ways with their neighbours: in a log with few rows a block a long
-/// distance is nothing special.
-bool has_dense_rows(const LogView& view, const Space& space, const std::vector<double>& step) {
-    std::size_t on_way = 0, moving = 0;
+struct Sampling {
+    bool dense;
+    bool even;
+};
+
+/// Dense: most rows lie on straight ways with their neighbours. In a log with few rows a block a
+/// long distance is nothing special.
+Sampling sampling_of(const LogView& view, const Space& space, const std::vector<double>& step) {
+    std::size_t on_way = 0, moving = 0, alike = 0;
     for (std::size_t i = 1; i < step.size(); ++i) {
-        const double shorter = std::min(step[i - 1], step[i]);
+        const auto [shorter, longer] = std::minmax(step[i - 1], step[i]);
         if (shorter <= 0.0) continue;
         ++moving;
         const auto &a = view.rows[i - 1].at, &here = view.rows[i].at, &b = view.rows[i + 1].at;
         const double apart = space.square(space.between(a, b, space.nearest(a, b, here)), here);
-        on_way += apart <= straight * straight * shorter * shorter ? 1 : 0;
+        if (apart > straight * straight * shorter * shorter) continue;
+        ++on_way;
+        alike += longer <= like * shorter ? 1 : 0;
     }
-    return 2 * on_way > moving;
+    return {2 * on_way > moving,
+            static_cast<double>(alike) > most_like * static_cast<double>(on_way)};
 }
 
 /// The least distance that is a jump; infinite: none.
@@ -60,8 +70,9 @@ std::vector<std::string> mark_missing_rows(LogView& view) {
     std::vector<double> step;
     for (std::size_t i = 1; i < view.rows.size(); ++i)
         step.push_back(std::sqrt(space.square(view.rows[i - 1].at, view.rows[i].at)));
-    const double from = has_dense_rows(view, space, step) ? jump_from(step)
-                                                          : std::numeric_limits<double>::infinity();
+    const Sampling sampling = sampling_of(view, space, step);
+    view.even = sampling.even;
+    const double from = sampling.dense ? jump_from(step) : std::numeric_limits<double>::infinity();
     std::vector<double> others(3, 0.0);
     std::vector<std::size_t> jumps;
     for (std::size_t i = 0; i < step.size(); ++i) {

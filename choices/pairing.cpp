@@ -177,13 +177,6 @@ class Pairer {
         return std::move(before);
     }
 
-    static std::size_t last_cell(const std::vector<double>& costs, std::size_t first, bool open) {
-        if (!open) return costs.size() - 1;
-        const auto least =
-            std::min_element(costs.begin() + static_cast<std::ptrdiff_t>(first), costs.end());
-        return static_cast<std::size_t>(least - costs.begin());
-    }
-
     void measure() {
         strides_ = Strides(log_, space_);
         length_.assign(path_.nodes.size(), 0.0);
@@ -240,8 +233,10 @@ class Pairer {
     Progress with_row(const Progress& before, const Spot& spot, std::size_t i) const {
         Progress now = before;
         now.along_mm = std::max(now.along_mm, spot.along_mm);
-        if (now.rows++ > 0 && !log_.rows[i - 1].cut)
-            now.stride_mm = std::max(now.stride_mm, strides_.next(i - 1));
+        if (now.rows++ > 0) {
+            if (!log_.rows[i - 1].cut)
+                now.stride_mm = std::max(now.stride_mm, strides_.next(i - 1));
+        }
         return now;
     }
 

@@ -28,6 +28,7 @@ struct LogView {
     bool from_zero = false;      ///< the control started at its machine zero, not at the first row
     bool marked = false;         ///< every end of a move has a row
     int keys = 0;                ///< number of blocks named by the log; 0: none
+    bool even = false;           ///< samples at equal times, so those of a motion tell of its ends
     double spacing = 0.0;  ///< mm or deg: least distance of samples that is assumed everywhere
     /// Number of a block of the program; -1: not named by the log.
     std::function<int(const PathBlock&)> key_of;
@@ -48,10 +49,10 @@ struct Pair {
 /// least squares (dynamic time warping). Samples are compared with segments, ends of moves with
 /// ends. Moves not sampled by the log are included: a point of the path far from all samples is
 /// paired with the nearest chord of the samples, minus the distance of samples (of those on the
-/// motion that ends there, if it has two; no distance is subtracted for an end of a move if the log
-/// marks ends; nothing is judged where rows are missing). A sample may stand behind one before it
-/// on the same segment only within noise. A degree counts as a millimetre. Points after the last
-/// logged position are ignored. Throws PathEnded.
+/// motion that ends there, if it has two in a log of even samples; no distance is subtracted for an
+/// end of a move if the log marks ends; nothing is judged where rows are missing). A sample may
+/// stand behind one before it on the same segment only within noise. A degree counts as a
+/// millimetre. Points after the last logged position are ignored. Throws PathEnded.
 std::vector<Pair> pair_up(const LogView& log, const ControlPath& path);
 
 /// Sum of squares of all pairs of a row, each axis divided by its uncertainty; one value a row.

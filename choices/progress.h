@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "choices/pairing.h"
@@ -19,7 +20,10 @@ struct Progress {
 
     /// After the node at the end of a segment.
     Progress after(bool end_of_motion) const {
-        return end_of_motion ? Progress{} : Progress{0.0, stride_mm, rows};
+        if (end_of_motion) return {};
+        Progress out = *this;
+        out.along_mm = 0.0;
+        return out;
     }
 };
 
@@ -32,13 +36,20 @@ class Strides {
     /// From a row to the next one; the last has none.
     double next(std::size_t row) const { return next_[row]; }
     /// Up to which the end of a motion may be missed after this row: its motion's own samples tell,
-    /// if there are two; else the samples around, and those of the whole log.
+    /// if they are even and there are two; else the samples around, and those of the whole log.
     double allowed(std::size_t row, const Progress& motion) const {
-        return motion.rows > 1 ? std::min(around_[row], motion.stride_mm) : around_[row];
+        return std::min(around_[row], own(motion));
     }
 
   private:
+    /// Few samples need not have the largest distance of the motion among them.
+    double own(const Progress& motion) const {
+        if (!even_ || motion.rows < 2) return std::numeric_limits<double>::infinity();
+        return motion.stride_mm * (1.0 + 2.0 / (motion.rows - 1.0));
+    }
+
     std::vector<double> next_, around_;
+    bool even_ = false;
 };
 
 }  // namespace trunnion::choices
