@@ -138,6 +138,16 @@ void tell_rest(const LogView& log, const ComparedRun& base, ControlGap& gap) {
         "the log ends before the program: the moves from line {} on are not judged", next.line));
 }
 
+/// What the samples cannot show; a log with a row at every end of a move shows it.
+void tell_sampling(const LogView& log, ControlGap& gap) {
+    if (log.spacing <= least_told_mm || log.marked) return;
+    gap.notes.push_back(fmt::format(
+        "a move of less than {:.2g} mm, out and back between two samples, would not be seen{}",
+        log.spacing,
+        log.even ? "; the end of a sampled motion is judged to the distance of its own samples"
+                 : ""));
+}
+
 void tell_base(const LogOfProgram& log, const ComparedRun& base, const Teller& teller,
                ControlGap& gap) {
     gap.noise = log.noise;
@@ -243,12 +253,7 @@ Answer judged(const Asked& asked, LogOfProgram log) {
     ControlGap& gap = out.gap;
     gap.setup = question.setup;
     gap.notes = log.notes;
-    if (log.view.spacing > least_told_mm && !log.view.marked)
-        gap.notes.push_back(
-            fmt::format("a move of less than {:.2g} mm, out and back between two samples, would "
-                        "not be seen; the "
-                        "end of a sampled motion is judged to the distance of its own samples",
-                        log.view.spacing));
+    tell_sampling(log.view, gap);
     const ComparedRun first = asked.comparer(log).run(question.setup);
     const std::vector<int> blocks = blocks_of(log.view, first);
     // A motion that the log samples coarsely looks like noise, and would hide a gap.
