@@ -120,6 +120,15 @@ TEST_CASE(
     CHECK(verdict(log_with(-31.2), holes) == GapVerdict::unexplained);
 }
 
+TEST_CASE("a log of samples: uneven ones do not tell how far a motion went") {
+    records::PositionLog log = drilled({}).log;
+    SeededNoise random(8);
+    std::erase_if(log.rows, [&](const auto&) { return random.uniform() < 0.8; });
+    const choices::ControlGap gap = log_bench::gap_of(log_bench::mill_of(), log, holes);
+    CHECK(gap.verdict == GapVerdict::no_gap);
+    CHECK(!log_bench::has_note(gap, "judged to the distance of its own samples"));
+}
+
 TEST_CASE("a log of samples: a way back within a block is a gap, a rest and its noise are none") {
     const std::string line = "N10 G21 G90 G54\nN20 G1 X20. F200\nN30 Y20.\nN40 X0.\nN50 M30\n";
     const auto log_with = [&](const std::vector<double>& turns) {
