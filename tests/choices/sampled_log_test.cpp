@@ -287,6 +287,33 @@ M30
     CHECK(!log_bench::has_note(gap, "the positions"));
 }
 
+TEST_CASE("a log of samples: one block with another end has no late numbers") {
+    const std::string lifted = R"(N10 G21 G90 G17 G54
+N20 G1 X30. F300
+N30 Y20.
+N40 Z12.
+N50 Z30.
+N60 X5. Y8.
+N70 Z3.
+N80 M30
+)";
+    const auto log_with = [](double z) {
+        SampledLog log({0, 0, 0});
+        log.to(20, {30, 0, 0}, 0.8);
+        log.to(30, {30, 20, 0}, 0.8);
+        log.to(40, {30, 20, z}, 0.8);
+        log.add(40, {30, 20, z});
+        log.to(50, {30, 20, 30}, 0.8);
+        log.to(60, {5, 8, 30}, 0.8);
+        log.to(70, {5, 8, 3}, 0.8);
+        return log.log;
+    };
+    CHECK(verdict(log_with(12.0), lifted) == GapVerdict::no_gap);
+    const choices::ControlGap gap = log_bench::gap_of(log_bench::mill_of(), log_with(12.1), lifted);
+    CHECK(gap.verdict == GapVerdict::unexplained);
+    CHECK(!log_bench::has_note(gap, "the positions"));
+}
+
 TEST_CASE("a log of samples: the control may have started before the first row") {
     const std::string relative =
         "N10 G21 G91 G0 X5.\nN20 X7. Y3.\nN30 G1 Y9. F300\nN40 X2.\nN50 M30\n";
