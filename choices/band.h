@@ -76,4 +76,12 @@ class Costs {
     }
 };
 
+/// Where the way through a table ends: in its last cell, or in the cheapest one from `first` on.
+inline std::size_t last_cell(const std::vector<double>& costs, std::size_t first, bool open) {
+    if (!open) return costs.size() - 1;
+    const auto least =
+        std::min_element(costs.begin() + static_cast<std::ptrdiff_t>(first), costs.end());
+    return static_cast<std::size_t>(least - costs.begin());
+}
+
 }  // namespace trunnion::choices

@@ -23,7 +23,7 @@ class Comparer {
     /// The same program with other positions in the log, which must outlive the result.
     Comparer on(const LogView& log) const {
         PathOptions options = options_;
-        if (!log.ends && !log.begins_within)
+        if (!log.ends && !log.begins_within && !log.from_zero)
             options.start = offsets::axis_positions_of(log.rows.front().at);
         return {log, program_, programs_, options};
     }

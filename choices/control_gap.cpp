@@ -31,6 +31,7 @@ constexpr double chance =
 constexpr double quite_sure = 0.8;    ///< probability of a cause of such an excess
 constexpr double all_rows = 0.95;     ///< part of the rows that an explanation reaches
 constexpr double surely_more = 1e-9;  ///< p of a mean that no noise has
+constexpr double other_start = 1.2;   ///< of the loss: most with a start that may be right
 
 /// The control with all steps but one.
 setup::Setup without(const setup::Setup& setup, const GapSearch& found, std::size_t left_out) {
@@ -135,6 +136,16 @@ void tell_rest(const LogView& log, const ComparedRun& base, ControlGap& gap) {
     const PathBlock& next = base.path.blocks[base.path.nodes[last + 1].block];
     gap.notes.push_back(fmt::format(
         "the log ends before the program: the moves from line {} on are not judged", next.line));
+}
+
+/// What the samples cannot show; a log with a row at every end of a move shows it.
+void tell_sampling(const LogView& log, ControlGap& gap) {
+    if (log.spacing <= least_told_mm || log.marked) return;
+    gap.notes.push_back(fmt::format(
+        "a move of less than {:.2g} mm, out and back between two samples, would not be seen{}",
+        log.spacing,
+        log.even ? "; the end of a sampled motion is judged to the distance of its own samples"
+                 : ""));
 }
 
 void tell_base(const LogOfProgram& log, const ComparedRun& base, const Teller& teller,
@@ -242,10 +253,7 @@ Answer judged(const Asked& asked, LogOfProgram log) {
     ControlGap& gap = out.gap;
     gap.setup = question.setup;
     gap.notes = log.notes;
-    if (log.view.spacing > least_told_mm)
-        gap.notes.push_back(fmt::format(
-            "a move of less than {:.2g} mm, out and back between two samples, would not be seen",
-            log.view.spacing));
+    tell_sampling(log.view, gap);
     const ComparedRun first = asked.comparer(log).run(question.setup);
     const std::vector<int> blocks = blocks_of(log.view, first);
     // A motion that the log samples coarsely looks like noise, and would hide a gap.
@@ -274,6 +282,22 @@ Answer judged(const Asked& asked, LogOfProgram log) {
     return out;
 }
 
+/// With the control at its machine zero at first, if this explains the log and its first row as the
+/// start does not.
+void try_other_start(const Asked& asked, const LogOfProgram& log, Answer& answer) {
+    if (answer.gap.verdict == GapVerdict::no_gap || log.view.ends || log.view.begins_within ||
+        log.view.from_zero)
+        return;
+    LogOfProgram other = from_machine_zero(log);
+    const ComparedRun own = asked.comparer(log).run(answer.reached),
+                      here = asked.comparer(other).run(answer.reached);
+    const double noise = static_cast<double>(log.view.axes.size() * log.view.rows.size());
+    const double most = is_left(answer.gap) ? other_start * own.loss + noise : 0.1 * own.loss;
+    if (same_way(own.path, here.path) || here.loss > most) return;
+    Answer second = judged(asked, std::move(other));
+    if (!is_left(second.gap)) answer = std::move(second);
+}
+
 }  // namespace
 
 ControlGap control_gap(const GapQuestion& question, interpreter::ProgramSource& programs,
@@ -289,7 +313,8 @@ ControlGap control_gap(const GapQuestion& question, interpreter::ProgramSource& 
     Answer answer = judged(asked, log);
     // Late numbers may show only beside the causes.
     if (is_left(answer.gap) && settle_lateness(asked.source(answer.reached), log))
-        answer = judged(asked, std::move(log));
+        answer = judged(asked, log);
+    try_other_start(asked, log, answer);
     return std::move(answer.gap);
 }
 

@@ -19,6 +19,7 @@ constexpr double other_meaning = 0.1;     ///< of the loss: most that another re
 constexpr double other_lateness = 0.05;   ///< the same where no corner shows it
 constexpr std::size_t most_unlogged = 2;  ///< blocks that a control may leave out at the start
 constexpr std::size_t rows_a_change = 8;  ///< of a log whose numbers may be late
+constexpr double shown_loss = 9.0;        ///< of an axis, at a change of the number
 constexpr int earliest_shift = -3, latest_shift = 5;
 
 /// One reading of a log.
@@ -70,7 +71,7 @@ class Meanings {
         for (int shift = earliest_shift; shift <= latest_shift; ++shift) {
             if (shift == 0) continue;
             Meaning moved = late_by(view, {shift, shift});
-            if (moved.run.loss >= limit) continue;
+            if (moved.run.loss >= limit || !most_changes_show(moved, shift)) continue;
             limit = moved.run.loss;
             best = std::move(moved);
         }
@@ -85,12 +86,29 @@ class Meanings {
         return {std::move(log), std::move(run)};
     }
     bool is_settled() const { return is_quiet(now_.log, now_.run); }
+    /// One block with another end may look like late numbers of that block alone.
+    bool most_changes_show(const Meaning& moved, int shift) const {
+        const auto& rows = now_.log.view.rows;
+        const std::size_t reach = static_cast<std::size_t>(std::abs(shift)) + 1;
+        const double shown = shown_loss * static_cast<double>(now_.log.view.axes.size());
+        std::size_t changes = 0, show = 0;
+        for (std::size_t i = 1; i < rows.size(); ++i) {
+            if (rows[i].key == rows[i - 1].key) continue;
+            double gain = 0.0;
+            for (std::size_t k = i - std::min(i, reach); k < std::min(rows.size(), i + reach); ++k)
+                gain += now_.run.losses[k] - moved.run.losses[k];
+            ++changes;
+            show += gain > shown ? 1 : 0;
+        }
+        return 2 * show > changes;
+    }
 
-    /// Lines from 0, a log of a part of the program, or both.
+    /// Lines from 0, a log of a part of the program, or both; or another start.
     void settle_part() {
         if (is_settled()) return;
         std::vector<Meaning> others;
         others.push_back(part(now_.log));
+        if (!now_.log.view.ends) others.push_back(meaning(from_machine_zero(now_.log)));
         if (auto zero = from_zero()) {
             others.push_back(part(*zero));
             others.push_back(meaning(std::move(*zero)));
@@ -158,6 +176,15 @@ bool is_quiet(const LogOfProgram& log, const ComparedRun& run) {
     const double axes = static_cast<double>(log.view.axes.size());
     return run.loss <= quiet_mean * axes * static_cast<double>(run.losses.size()) &&
            worst <= axes * quiet_worst * quiet_worst;
+}
+
+LogOfProgram from_machine_zero(LogOfProgram log) {
+    log.view.from_zero = true;
+    log.path.start = {};
+    log.notes.emplace_back(
+        "the control started at its machine zero, and the first row of the log stands on its first "
+        "move");
+    return log;
 }
 
 void settle_meaning(const LogSource& source, LogOfProgram& log) {

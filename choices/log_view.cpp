@@ -6,12 +6,13 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <set>
 
 #include "base/alarm.h"
 #include "base/units.h"
+#include "choices/missing_rows.h"
+#include "choices/rows_at_ends.h"
 #include "motion/motion.h"
 
 namespace trunnion::choices {
@@ -163,21 +164,6 @@ double measured_sigma(const LogView& view) {
     return most;
 }
 
-/// The third largest distance of neighbouring samples: a rapid move that begins and ends between
-/// two samples may have gone as far, wherever they are. (Two gaps in a log say nothing of its
-/// sampling.) 0 for ends of moves.
-double spacing_of(const LogView& view) {
-    std::vector<double> squares(3, 0.0);
-    for (std::size_t i = 1; i < view.rows.size() && !view.ends; ++i) {
-        double square = 0.0;
-        for (const Axis axis : view.axes)
-            square += std::pow(view.rows[i].at[axis] - view.rows[i - 1].at[axis], 2);
-        squares.push_back(square);
-    }
-    std::nth_element(squares.begin(), squares.begin() + 2, squares.end(), std::greater<>());
-    return std::sqrt(squares[2]);
-}
-
 double chord_of(double sigma) {
     return std::max(least_sample_sigma, 0.3 * sigma);
 }
@@ -248,7 +234,13 @@ LogOfProgram log_of_program(const records::PositionLog& log,
     out.by_number = keys->by_number();
     out.view.key_of = [keys](const PathBlock& block) { return keys->of_block(block); };
     set_noise(log, out);
-    out.view.spacing = spacing_of(out.view);
+    out.notes = mark_missing_rows(out.view);
+    if (!out.view.marked && has_rows_at_ends(out.view)) {
+        out.view.marked = true;
+        out.notes.push_back(log.path +
+                            ": every corner is one of the rows, so ends of moves are compared "
+                            "exactly");
+    }
     if (!log.ends) out.path.start = log.rows.front().at;
     out.path.ends_only = log.ends;
     out.path.chord_mm = chord_of(out.sigma);

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "choices/band.h"
+#include "choices/progress.h"
 #include "choices/row_keys.h"
 #include "choices/space.h"
 #include "choices/way_match.h"
@@ -18,10 +19,10 @@ using offsets::ControlPosition;
 
 constexpr std::size_t most_cells = 4'000'000;  ///< of one block's table; beyond it, only a band is
                                                ///< computed
-constexpr std::size_t spacing_rows = 2;        ///< rows on each side for the distance of samples
 constexpr std::size_t edge_nodes = 4;          ///< of a band: too near to its edge
 constexpr std::size_t wider = 4, widest = 16;  ///< of the margins of a band that was narrow
-constexpr double noise_sigmas = 6.0;           ///< of a row: less adds no way
+constexpr double noise_sigmas = 6.0;           ///< of a row: less adds no way, and is no way back
+constexpr double as_cheap = 1e-6;              ///< of the square of a sigma
 
 class Pairer {
   public:
@@ -32,7 +33,7 @@ class Pairer {
 
     std::vector<Pair> pair() {
         group();
-        if (!log_.ends) measure_spacing();
+        if (!log_.ends) measure();
         const std::optional<std::size_t> begun = begin();
         for (std::size_t g = 0; g < rows_.size(); ++g)
             if (g != begun) warp(g);
@@ -176,103 +177,145 @@ class Pairer {
         return std::move(before);
     }
 
-    static std::size_t last_cell(const std::vector<double>& costs, std::size_t first, bool open) {
-        if (!open) return costs.size() - 1;
-        const auto least =
-            std::min_element(costs.begin() + static_cast<std::ptrdiff_t>(first), costs.end());
-        return static_cast<std::size_t>(least - costs.begin());
-    }
-
-    /// Distance of the samples around each row.
-    void measure_spacing() {
-        std::vector<double> squares(log_.rows.size(), 0.0);
-        for (std::size_t k = 0; k + 1 < squares.size(); ++k)
-            squares[k] = space_.square(row_at(k), row_at(k + 1));
-        for (std::size_t i = 0; i < squares.size(); ++i) {
-            double most = log_.spacing * log_.spacing;
-            const std::size_t last = std::min(squares.size() - 1, i + spacing_rows);
-            for (std::size_t k = i > spacing_rows ? i - spacing_rows : 0; k < last; ++k)
-                most = std::max(most, squares[k]);
-            spacing_.push_back(std::sqrt(most));
-        }
+    void measure() {
+        strides_ = Strides(log_, space_);
+        length_.assign(path_.nodes.size(), 0.0);
+        for (std::size_t k = 1; k < length_.size(); ++k)
+            length_[k] = std::sqrt(space_.square(node_at(k - 1), node_at(k)));
     }
     /// Distance between a node and the chord from row i on, minus the distance of samples.
-    ControlPosition missed(std::size_t i, std::size_t k) const {
+    ControlPosition missed(std::size_t i, std::size_t k, const Progress& motion) const {
+        if (log_.rows[i].cut) return {};
         const ControlPosition& from = row_at(i);
         const ControlPosition& to = row_at(std::min(i + 1, log_.rows.size() - 1));
         const double s = space_.nearest(from, to, node_at(k));
         ControlPosition apart = space_.apart(space_.between(from, to, s), node_at(k));
         const double size = std::sqrt(space_.square(apart, {}));
         if (log_.marked && path_.nodes[k].end) return apart;
-        const double kept = size > 0.0 ? std::max(0.0, 1.0 - spacing_[i] / size) : 0.0;
+        const double kept =
+            size > 0.0 ? std::max(0.0, 1.0 - strides_.allowed(i, motion) / size) : 0.0;
         for (double& value : apart.value) value *= kept;
         return apart;
     }
-    /// The row whose chord is active when i rows are placed.
-    static std::size_t placed(const Indices& rows, std::size_t i) {
-        return i > 0 ? rows[i - 1] : rows[0] - std::min<std::size_t>(rows[0], 1);
+    /// The row whose chord passes a node when i rows are placed: the last one, or the one before
+    /// the next. Between two visits of a block they are not the same.
+    std::size_t passing(const Indices& rows, std::size_t i, std::size_t k,
+                        const Progress& motion) const {
+        const std::size_t next = rows[std::min(i, rows.size() - 1)];
+        const std::size_t before = next - std::min<std::size_t>(next, 1);
+        if (i == 0) return before;
+        const std::size_t last = rows[i - 1];
+        if (i == rows.size() || last == before) return last;
+        const auto square = [&](std::size_t r) { return space_.square(missed(r, k, motion), {}); };
+        return square(before) < square(last) ? before : last;
     }
-    double missed_square(const Indices& rows, std::size_t i, std::size_t k) const {
-        return space_.square(missed(placed(rows, i), k), {});
+    /// A place on the segment to a node.
+    struct Spot {
+        double along_mm;
+        bool slides;
+    };
+    /// The nearest place to a row that is no way back from where the rows before have come.
+    Spot spot(std::size_t i, std::size_t k, const Progress& before) const {
+        if (log_.rows[i].end && !rests(i)) return {length_[k], false};
+        const double along = length_[k] * space_.nearest(node_at(k - 1), node_at(k), row_at(i));
+        const double least = before.along_mm - noise_sigmas / log_.rows[i].weight;
+        if (along < least) return {least, true};
+        return {along, along > 0.0 && along < length_[k]};
     }
-    double on_segment(std::size_t i, std::size_t k) const {
-        return log_.rows[i].end && !rests(i)
-                   ? 1.0
-                   : space_.nearest(node_at(k - 1), node_at(k), row_at(i));
+    double fraction(const Spot& spot, std::size_t k) const {
+        return length_[k] > 0.0 && spot.along_mm < length_[k] ? spot.along_mm / length_[k] : 1.0;
     }
-    double segment_square(std::size_t i, std::size_t k) const {
-        return space_.square(space_.between(node_at(k - 1), node_at(k), on_segment(i, k)),
-                             row_at(i));
+    ControlPosition apart_at(const Spot& spot, std::size_t i, std::size_t k) const {
+        return space_.apart(row_at(i),
+                            space_.between(node_at(k - 1), node_at(k), fraction(spot, k)));
+    }
+    /// With row i at a spot, after the row before it.
+    Progress with_row(const Progress& before, const Spot& spot, std::size_t i) const {
+        Progress now = before;
+        now.along_mm = std::max(now.along_mm, spot.along_mm);
+        if (now.rows++ > 0) {
+            if (!log_.rows[i - 1].cut)
+                now.stride_mm = std::max(now.stride_mm, strides_.next(i - 1));
+        }
+        return now;
     }
 
+    /// The last one of some rows on the segment to a node, or a node that is passed after it.
+    struct Placed {
+        std::size_t rows, node;
+        bool passed;
+    };
     void warp_samples(const Indices& rows, const Indices& nodes) {
         auto [band, last] = filled(
             rows, nodes, [&](Band& b) { return fill_samples(rows, nodes, b); }, 0);
         const bool open = ends_open(rows);
         std::size_t i = rows.size(), j = last_cell(last, 0, open);
-        if (!open) add_missed(rows.back(), nodes.back());
+        std::vector<Placed> order;  // from the last one back
+        if (!open) order.push_back({i, nodes.back(), true});
         while (i > 0) {
-            if (band.step(i, j) == node) {
-                --j;
-                add_missed(rows[i - 1], nodes[j]);
+            const bool passed = band.step(i, j) == node;
+            if (passed) --j;
+            order.push_back({i, nodes[j], passed});
+            if (!passed) --i;
+        }
+        while (j > 0 && !opens(rows)) order.push_back({0, nodes[--j], true});
+        add_in_order(rows, order);
+    }
+    /// `order` goes back; what rows have passed goes on.
+    void add_in_order(const Indices& rows, const std::vector<Placed>& order) {
+        const std::size_t first = pairs_.size();
+        Progress motion;
+        for (auto at = order.rbegin(); at != order.rend(); ++at) {
+            const std::size_t k = at->node;
+            if (at->passed) {
+                add_missed(passing(rows, at->rows, k, motion), k, motion);
+                motion = motion.after(path_.nodes[k].end);
             } else {
-                add_sample(rows[i - 1], nodes[j]);
-                --i;
+                const std::size_t i = rows[at->rows - 1];
+                const Spot here = spot(i, k, motion);
+                add(i, k, fraction(here, k), apart_at(here, i, k), here.slides);
+                motion = with_row(motion, here, i);
             }
         }
-        while (j > 0 && !opens(rows)) add_missed(placed(rows, 0), nodes[--j]);
+        // The last pair of a row is that of its own place.
+        std::reverse(pairs_.begin() + static_cast<std::ptrdiff_t>(first), pairs_.end());
     }
     /// Cell (i, j): i rows are placed, the last ones on the segment to node j + 1 or before.
     std::vector<double> fill_samples(const Indices& rows, const Indices& nodes, Band& band) const {
         const std::size_t n = nodes.size();
         Costs costs(n);
         auto& [before, now] = costs;
+        std::vector<Progress> come(n), comes(n);  // of the rows in `before` and `now`
         for (std::size_t i = 0; i <= rows.size(); ++i) {
             end_if_asked(i);
             if (i == 0) now[0] = 0.0;
             if (i == 0 && opens(rows)) std::fill_n(now.begin(), std::min(n, band.high(0) + 1), 0.0);
+            const double weight = log_.rows[rows[i - std::min<std::size_t>(i, 1)]].weight;
             for (std::size_t j = band.low(i); j < std::min(n, band.high(i) + 1); ++j) {
+                comes[j] = {};
                 if (i > 0 && before[j] < infinite) {
-                    now[j] = before[j] + segment_square(rows[i - 1], nodes[j]);
+                    const Spot here = spot(rows[i - 1], nodes[j], come[j]);
+                    now[j] = before[j] + space_.square(apart_at(here, rows[i - 1], nodes[j]), {});
+                    comes[j] = with_row(come[j], here, rows[i - 1]);
                     band.step(i, j) = row;
                 }
                 if (j == 0 || now[j - 1] == infinite) continue;
-                const double passed = now[j - 1] + missed_square(rows, i, nodes[j - 1]);
-                if (passed >= now[j]) continue;
+                const std::size_t k = nodes[j - 1];
+                const std::size_t from = passing(rows, i, k, comes[j - 1]);
+                const double passed = now[j - 1] + space_.square(missed(from, k, comes[j - 1]), {});
+                // Of two ways as cheap, the one that has not come far on its segment.
+                if (passed > now[j] + as_cheap / (weight * weight)) continue;
                 now[j] = passed;
+                comes[j] = comes[j - 1].after(path_.nodes[k].end);
                 band.step(i, j) = node;
             }
+            std::swap(come, comes);
             costs.next(band, i);
         }
         return std::move(before);
     }
-    void add_sample(std::size_t i, std::size_t k) {
-        const double s = on_segment(i, k);
-        add(i, k, s, space_.apart(row_at(i), space_.between(node_at(k - 1), node_at(k), s)),
-            s > 0.0 && s < 1.0);
-    }
-    void add_missed(std::size_t i, std::size_t k) {
-        const ControlPosition apart = missed(i, k);
+    void add_missed(std::size_t i, std::size_t k, const Progress& motion) {
+        const ControlPosition apart = missed(i, k, motion);
         if (space_.square(apart, {}) > 0.0) add(i, k, 1.0, apart, false);
     }
 
@@ -299,7 +342,7 @@ class Pairer {
             if (node_row_[k] != missing) {
                 row = node_row_[k];
             } else if (!has_rows[path_.nodes[k].block]) {
-                log_.ends ? add_end(row, k) : add_missed(row, k);
+                log_.ends ? add_end(row, k) : add_missed(row, k, {});
             }
         }
     }
@@ -312,7 +355,8 @@ class Pairer {
     std::size_t opening_row_ = missing;  ///< the first row of a log that begins within the program
     std::size_t begin_node_ = 0;         ///< nodes before are not judged
     Indices row_node_, node_row_;
-    std::vector<double> spacing_;  ///< of the samples around each row
+    Strides strides_;
+    std::vector<double> length_;  ///< of the segment to each node, mm or deg
     std::vector<Pair> pairs_;
 };
 

@@ -18,14 +18,17 @@ struct LogView {
         double weight = 1.0;  ///< 1 / standard uncertainty, per mm or deg
         int line = 0;         ///< in the log's file
         bool end = false;     ///< end of a move: belongs to a node, not to a segment
+        bool cut = false;     ///< rows are missing between this one and the next
     };
     std::vector<Row> rows;
     std::vector<Axis> axes;      ///< axes in the log
     bool ends = false;           ///< all rows are ends of moves
     bool begins_within = false;  ///< the log begins within the program: what comes before its first
                                  ///< row is not judged
-    bool marked = false;         ///< every end of a move has a row that is marked as one
+    bool from_zero = false;      ///< the control started at its machine zero, not at the first row
+    bool marked = false;         ///< every end of a move has a row
     int keys = 0;                ///< number of blocks named by the log; 0: none
+    bool even = false;           ///< samples at equal times, so those of a motion tell of its ends
     double spacing = 0.0;  ///< mm or deg: least distance of samples that is assumed everywhere
     /// Number of a block of the program; -1: not named by the log.
     std::function<int(const PathBlock&)> key_of;
@@ -37,17 +40,19 @@ struct Pair {
     std::uint32_t node = 0;
     double fraction = 1.0;
     offsets::ControlPosition apart;  ///< log - control, mm and deg; axes without a column: 0
-    bool slides = false;             ///< the point is the nearest one on the segment, so it
-                                     ///< contains no information along the direction of travel
+    bool slides = false;             ///< the point is the nearest one on the segment, or as far
+                                     ///< as an earlier row, so it contains no information along
+                                     ///< the direction of travel
 };
 
 /// Pairs in order within each block: the rows of a block are matched with the path of its line by
 /// least squares (dynamic time warping). Samples are compared with segments, ends of moves with
 /// ends. Moves not sampled by the log are included: a point of the path far from all samples is
-/// paired with the nearest chord of the samples, minus the distance of samples (no
-/// distance is subtracted for an end of a move if the log marks ends). Within one segment the order
-/// of samples is ignored. A degree counts as a millimetre. Points after the last logged position
-/// are ignored. Throws PathEnded.
+/// paired with the nearest chord of the samples, minus the distance of samples (of those on the
+/// motion that ends there, if it has two in a log of even samples; no distance is subtracted for an
+/// end of a move if the log marks ends; nothing is judged where rows are missing). A sample may
+/// stand behind one before it on the same segment only within noise. A degree counts as a
+/// millimetre. Points after the last logged position are ignored. Throws PathEnded.
 std::vector<Pair> pair_up(const LogView& log, const ControlPath& path);
 
 /// Sum of squares of all pairs of a row, each axis divided by its uncertainty; one value a row.

@@ -13,6 +13,7 @@ namespace trunnion::choices {
 namespace {
 
 constexpr std::size_t most_distances = 2'000'000;  ///< of one run of rows without a number
+constexpr double noise_squares = 36.0;             ///< of a way back, in squares of sigma
 
 /// Successive nodes of one block.
 struct Visit {
@@ -91,15 +92,30 @@ class KeyFiller {
         if (!at_) return {out.back()};
         return ends ? Visits{out.front(), out.back()} : Visits{out.front()};
     }
+    /// Of the distance, and of the way back: where the axes turn, both blocks are as near.
     double square(std::size_t i, const Visit& visit) const {
         double least = std::numeric_limits<double>::infinity();
         const offsets::ControlPosition& row = log_.rows[i].at;
         for (std::size_t k = visit.first; k <= visit.last; ++k) {
             const auto &a = path_.nodes[k - 1].at, &b = path_.nodes[k].at;
             const double s = log_.ends ? 1.0 : space_.nearest(a, b, row);
-            least = std::min(least, space_.square(space_.between(a, b, s), row));
+            double sum = space_.square(space_.between(a, b, s), row);
+            if (!log_.ends && i > 0) sum += square_back(i, a, b);
+            least = std::min(least, sum);
         }
         return least;
+    }
+    /// Of the way from the row before against the direction of a segment; none within noise.
+    double square_back(std::size_t i, const offsets::ControlPosition& a,
+                       const offsets::ControlPosition& b) const {
+        const auto move = space_.apart(log_.rows[i].at, log_.rows[i - 1].at),
+                   way = space_.apart(b, a);
+        double along = 0.0;
+        for (const Axis axis : log_.axes) along += move[axis] * way[axis];
+        const double length = space_.square(way, {}), weight = log_.rows[i].weight;
+        if (along >= 0.0 || length <= 0.0) return 0.0;
+        const double back = along * along / length;
+        return back * weight * weight > noise_squares ? back : 0.0;
     }
     /// Least sum of squares, in order; a visit may have no row.
     void divide(std::size_t from, std::size_t to, const Visits& list) {

@@ -1,0 +1,55 @@
+// How far the samples on a motion have come, and where a motion may end between two of them.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "choices/pairing.h"
+#include "choices/space.h"
+
+namespace trunnion::choices {
+
+/// Of the rows placed on a motion so far.
+struct Progress {
+    double along_mm = 0.0;   ///< from the start of the present segment: the farthest row
+    double stride_mm = 0.0;  ///< largest distance of two successive rows of the motion
+    std::uint32_t rows = 0;
+
+    /// After the node at the end of a segment.
+    Progress after(bool end_of_motion) const {
+        if (end_of_motion) return {};
+        Progress out = *this;
+        out.along_mm = 0.0;
+        return out;
+    }
+};
+
+/// Distances between the rows of a log of samples, mm or deg.
+class Strides {
+  public:
+    Strides() = default;
+    Strides(const LogView& log, const Space& space);
+
+    /// From a row to the next one; the last has none.
+    double next(std::size_t row) const { return next_[row]; }
+    /// Up to which the end of a motion may be missed after this row: its motion's own samples tell,
+    /// if they are even and there are two; else the samples around, and those of the whole log.
+    double allowed(std::size_t row, const Progress& motion) const {
+        return std::min(around_[row], own(motion));
+    }
+
+  private:
+    /// Few samples need not have the largest distance of the motion among them.
+    double own(const Progress& motion) const {
+        if (!even_ || motion.rows < 2) return std::numeric_limits<double>::infinity();
+        return motion.stride_mm * (1.0 + 2.0 / (motion.rows - 1.0));
+    }
+
+    std::vector<double> next_, around_;
+    bool even_ = false;
+};
+
+}  // namespace trunnion::choices
