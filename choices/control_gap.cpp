@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <set>
 
@@ -13,6 +14,7 @@
 #include "choices/gap_teller.h"
 #include "choices/log_meaning.h"
 #include "choices/row_fit.h"
+#include "choices/small_shift.h"
 #include "controller/alarms.h"
 #include "estimation/distributions.h"
 
@@ -28,16 +30,20 @@ constexpr double claimed = 0.5;               ///< least probability of a claim
 constexpr double least_told_mm = 0.01;        ///< distance of samples that is worth a note
 constexpr double chance =
     1e-6;  ///< p of a small excess over the noise that is searched all the same
-constexpr double quite_sure = 0.8;    ///< probability of a cause of such an excess
-constexpr double all_rows = 0.95;     ///< part of the rows that an explanation reaches
+constexpr double quite_sure = 0.8;     ///< probability of a cause of such an excess
+constexpr double all_rows = 0.95;      ///< part of the rows that an explanation reaches
+constexpr double still_helps = 0.01;   ///< of what a cause removes: it does so without another one
+constexpr std::size_t least_late = 3;  ///< blocks with wrong rows, where numbers are late
+constexpr double infinite_loss = std::numeric_limits<double>::infinity();
 constexpr double surely_more = 1e-9;  ///< p of a mean that no noise has
 constexpr double other_start = 1.2;   ///< of the loss: most with a start that may be right
 
-/// The control with all steps but one.
-setup::Setup without(const setup::Setup& setup, const GapSearch& found, std::size_t left_out) {
+/// The control with all steps but some.
+setup::Setup without(const setup::Setup& setup, const GapSearch& found,
+                     const std::set<std::size_t>& left_out) {
     setup::Setup out = setup;
     for (std::size_t k = 0; k < found.steps.size(); ++k)
-        if (k != left_out) found.steps[k].chosen.take(out);
+        if (!left_out.contains(k)) found.steps[k].chosen.take(out);
     return out;
 }
 
@@ -45,7 +51,7 @@ struct Judged {
     const Comparer& comparer;
     const Teller& teller;
     const std::vector<int>& blocks;
-    double loss_before;
+    double excess;     ///< of the loss, over noise
     double row_limit;  ///< loss of a row that noise may have
 };
 
@@ -60,7 +66,7 @@ void cap_probability(GapCause& cause, double explained) {
 GapCause cause_of(const GapQuestion& question, const GapSearch& found, std::size_t k,
                   const Judged& by) {
     const GapStep& step = found.steps[k];
-    const ComparedRun rest = by.comparer.run(without(question.setup, found, k));
+    const ComparedRun rest = by.comparer.run(without(question.setup, found, {k}));
     GapCause out{step.chosen.name,
                  step.chosen.what,
                  step.chosen.numbers,
@@ -71,8 +77,7 @@ GapCause cause_of(const GapQuestion& question, const GapSearch& found, std::size
                  {},
                  {},
                  {}};
-    const double excess = by.loss_before - by.teller.noise_loss();
-    if (excess > 0.0) out.share = std::clamp((rest.loss - found.run.loss) / excess, 0.0, 1.0);
+    if (by.excess > 0.0) out.share = std::clamp((rest.loss - found.run.loss) / by.excess, 0.0, 1.0);
     const auto changed = [&](std::size_t row) {
         return is_changed(rest.losses[row], found.run.losses[row]);
     };
@@ -81,7 +86,13 @@ GapCause cause_of(const GapQuestion& question, const GapSearch& found, std::size
     out.worst = by.teller.worst(rest, changed);
     out.heldout = by.teller.shrink(rest.losses, found.left_out);
     // An exact cause leaves nothing in most of what it touches.
-    cap_probability(out, 2.0 * reached(rest.losses, found.run.losses, by.row_limit) - 1.0);
+    // Foreign blocks beside it are none of its rows, but it must explain more than they are.
+    std::vector<double> before = rest.losses, after = found.run.losses;
+    const double all = reached(before, after, by.row_limit);
+    for (std::size_t row = 0; row < before.size(); ++row)
+        if (!changed(row)) before[row] = after[row] = 0.0;
+    cap_probability(out,
+                    std::min(2.0 * reached(before, after, by.row_limit) - 1.0, 4.0 * all - 2.0));
     if (step.only_passes_stop) {
         // All that the log shows of it is that the other control did not stop.
         out.probability = std::min(out.probability, only_one_block);
@@ -90,16 +101,32 @@ GapCause cause_of(const GapQuestion& question, const GapSearch& found, std::size
     return out;
 }
 
-/// The cause, or one of its rivals.
-bool is_claimed(const GapCause& cause) {
-    return cause.probability * (1.0 + static_cast<double>(cause.rivals.size())) >= claimed;
+/// A cause that improves nothing without another one is at most as sure as that one.
+void cap_by_needed(const GapQuestion& question, const GapSearch& found, const Judged& by,
+                   std::vector<GapCause>& causes) {
+    const std::size_t n = found.steps.size();
+    std::vector<double> loss(n);
+    for (std::size_t k = 0; k < n; ++k)
+        loss[k] = by.comparer.run(without(question.setup, found, {k})).loss;
+    std::vector<std::pair<std::size_t, std::size_t>> needs;
+    for (std::size_t k = 0; k < n; ++k)
+        for (std::size_t i = k + 1; i < n; ++i) {
+            const double neither = by.comparer.run(without(question.setup, found, {i, k})).loss;
+            if (neither - loss[i] <= still_helps * (loss[k] - found.run.loss))
+                needs.emplace_back(k, i);
+            if (neither - loss[k] <= still_helps * (loss[i] - found.run.loss))
+                needs.emplace_back(i, k);
+        }
+    for (std::size_t turn = 0; turn < n; ++turn)
+        for (const auto& [k, i] : needs)
+            causes[k].probability = std::min(causes[k].probability, causes[i].probability);
 }
 
-/// `reached`: part of the rows with a gap that the causes bring down to noise.
-GapVerdict verdict_of(const ControlGap& gap, double reached) {
+/// `whole`: the causes bring (almost) all rows with a gap down to noise, and spoil none.
+GapVerdict verdict_of(const ControlGap& gap, bool whole) {
     const bool none = std::none_of(gap.causes.begin(), gap.causes.end(), is_claimed);
     if (none || gap.explained < partly_from) return GapVerdict::unexplained;
-    if (gap.explained < explained_from || reached < all_rows) return GapVerdict::partly_explained;
+    if (gap.explained < explained_from || !whole) return GapVerdict::partly_explained;
     const bool rivals = std::any_of(gap.causes.begin(), gap.causes.end(),
                                     [](const GapCause& c) { return !c.rivals.empty(); });
     return rivals ? GapVerdict::ambiguous : GapVerdict::explained;
@@ -173,23 +200,26 @@ void tell_causes(const GapQuestion& question, const GapSearch& found, const Comp
                  const Judged& by, ControlGap& gap) {
     for (std::size_t k = 0; k < found.steps.size(); ++k)
         gap.causes.push_back(cause_of(question, found, k, by));
-    const double noise = by.teller.noise_loss(), excess = base.loss - noise;
+    const double excess = by.excess;
     gap.explained =
         excess > 0.0 ? std::clamp((base.loss - sum_of(found.left_out)) / excess, 0.0, 1.0) : 0.0;
     for (GapCause& cause : gap.causes) cap_probability(cause, gap.explained);
+    cap_by_needed(question, found, by, gap.causes);
     for (std::size_t k = 0; k < found.steps.size(); ++k)
         if (is_claimed(gap.causes[k])) found.steps[k].chosen.take(gap.setup);
     std::stable_sort(gap.causes.begin(), gap.causes.end(),
                      [](const GapCause& a, const GapCause& b) { return a.share > b.share; });
     const double part = reached(base.losses, found.run.losses, by.row_limit);
-    gap.verdict = verdict_of(gap, part);
+    const bool whole =
+        part >= all_rows && !stays_wrong(base.losses, found.run.losses, by.row_limit);
+    gap.verdict = verdict_of(gap, whole);
     gap.after = by.teller.shrink(base.losses, found.left_out);
     gap.after_rms_um = by.teller.mean_um(found.run.losses);
     for (const GapBlock& block : by.teller.where(found.run, excess))
-        if (block.share > least_left || (part < all_rows && block.p_value < surely_more))
+        if (block.share > least_left || (!whole && block.p_value < surely_more))
             gap.left.push_back(block);
     if (gap.verdict == GapVerdict::unexplained ||
-        (gap.verdict == GapVerdict::partly_explained && part < all_rows))
+        (gap.verdict == GapVerdict::partly_explained && !whole))
         add_unknown(gap, gap.verdict == GapVerdict::unexplained ? gap.blocks : gap.left.size());
     gap.unseen = found.unseen;
 }
@@ -220,6 +250,10 @@ void take_back(const GapQuestion& question, ControlGap& gap) {
 
 }  // namespace
 
+bool is_claimed(const GapCause& cause) {
+    return cause.probability * (1.0 + static_cast<double>(cause.rivals.size())) >= claimed;
+}
+
 const char* to_string(GapVerdict verdict) {
     constexpr const char* names[] = {"no-gap", "explained", "partly-explained", "ambiguous",
                                      "unexplained"};
@@ -245,6 +279,7 @@ struct Asked {
 struct Answer {
     ControlGap gap;
     setup::Setup reached;  ///< with every cause of the search, claimed or not
+    std::size_t left = 0;  ///< blocks that stay far away beside the causes
 };
 
 Answer judged(const Asked& asked, LogOfProgram log) {
@@ -264,17 +299,26 @@ Answer judged(const Asked& asked, LogOfProgram log) {
     const ComparedRun base = comparer.run(question.setup);
     gap.blocks = std::set<int>(blocks.begin(), blocks.end()).size();
     const BlockTexts texts(question.program, asked.texts);
-    const Teller teller(log, texts, blocks);
+    const Teller teller(log, texts, blocks, directions_of(log.view, base));
     tell_base(log, base, teller, gap);
     const bool quiet = is_quiet(log, base);
+    const double alike = quiet ? correlation_of(log.view, base, blocks) : 0.0;
+    if (quiet) gap.p_value = std::min(gap.p_value, p_of_shift(log.view, base, blocks, alike));
     if (quiet && gap.p_value > chance) return out;
-    const GapSearch found = search_causes(comparer, question.setup, base, blocks, question.watch);
-    tell_causes(question, found, base,
-                {comparer, teller, blocks, base.loss,
-                 row_limit_of(log, base, found.run, blocks, 1e-3 * gap.rms_um)},
-                gap);
-    if (quiet && !is_convincing(gap)) take_back(question, gap);
+    const GapSearch found =
+        search_causes({comparer, question.setup, base, blocks, alike}, question.watch);
+    // Within the noise no row shows whether it is reached: their means do.
+    const Judged by{
+        comparer, teller, blocks, base.loss - (quiet ? found.run.loss : teller.noise_loss()),
+        quiet ? infinite_loss : row_limit_of(log, base, found.run, blocks, 1e-3 * gap.rms_um)};
+    tell_causes(question, found, base, by, gap);
+    if (quiet && (!is_convincing(gap) || p_of_shift(log.view, found.run, blocks, alike) < chance))
+        take_back(question, gap);
     out.reached = found.setup;
+    std::set<int> left;
+    for (std::size_t row = 0; row < blocks.size(); ++row)
+        if (found.run.losses[row] > by.row_limit) left.insert(blocks[row]);
+    out.left = left.size();
     if (is_left(gap))
         if (const std::string meaning = agreeing_columns(comparer, question.setup, base.loss);
             !meaning.empty())
@@ -303,16 +347,20 @@ void try_other_start(const Asked& asked, const LogOfProgram& log, Answer& answer
 ControlGap control_gap(const GapQuestion& question, interpreter::ProgramSource& programs,
                        const std::function<std::vector<interpreter::ProgramText>()>& called) {
     PathOptions first_look;
-    first_look.ends_only = true;
+    first_look.moves_only = true;
     first_look.max_blocks = question.max_blocks;
-    path_of(question.setup, question.program, programs, first_look);  // finds the called programs
+    // Finds the called programs, too.
+    if (path_of(question.setup, question.program, programs, first_look).limited)
+        throw PathEnded{true};
     const std::vector<interpreter::ProgramText> all = called();
     const Asked asked{question, programs, all};
     LogOfProgram log = log_of_program(question.log, all, question.max_blocks);
     settle_meaning(asked.source(question.setup), log);
     Answer answer = judged(asked, log);
-    // Late numbers may show only beside the causes.
-    if (is_left(answer.gap) && settle_lateness(asked.source(answer.reached), log))
+    // Late numbers may show only beside the causes. They are wrong at most changes: what stays in
+    // one or two blocks is no lateness, which would hide it.
+    if (is_left(answer.gap) && answer.left >= least_late &&
+        settle_lateness(asked.source(answer.reached), log))
         answer = judged(asked, log);
     try_other_start(asked, log, answer);
     return std::move(answer.gap);

@@ -49,6 +49,9 @@ struct GapCause {
     bool known = true;  ///< false: what no choice and no store explains
 };
 
+/// The cause, or one of its rivals.
+bool is_claimed(const GapCause& cause);
+
 /// A block with part of the gap.
 struct GapBlock {
     GapPlace worst;
@@ -84,7 +87,7 @@ struct GapQuestion {
 
 /// Runs the program with each row of the table of options, and with each store fitted to the log;
 /// takes the one that explains most, and repeats from there until no candidate is confirmed by the
-/// left-out blocks. Throws InputError for a log of another program.
+/// left-out blocks. Throws InputError for a log of another program, PathEnded.
 ControlGap control_gap(const GapQuestion& question, interpreter::ProgramSource& programs,
                        const std::function<std::vector<interpreter::ProgramText>()>& texts);
 

@@ -47,6 +47,7 @@ class PathSink : public motion::MotionSink {
         : path_(path), options_(options), main_(main) {}
 
     motion::MoveResult move(const motion::AxisMove& m) override {
+        if (options_.moves_only) return {};
         const std::uint32_t block = block_of(m);
         const int parts = parts_of(m);
         for (int k = 1; k <= parts; ++k)
@@ -94,7 +95,9 @@ ControlPath path_of(const setup::Setup& setup, const interpreter::ProgramText& p
                                    [](std::string_view) {});
     control.place(options.start);
     for (const auto& [number, value] : setup.stores.variables) control.set_variable(number, value);
-    path.alarm = control.run(program).alarm;
+    const controller::RunResult result = control.run(program);
+    path.alarm = result.alarm;
+    path.limited = result.status == controller::RunStatus::limit;
     if (work_must_end()) throw PathEnded();
     return path;
 }

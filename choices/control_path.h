@@ -31,6 +31,7 @@ struct ControlPath {
     std::vector<PathNode> nodes;    ///< [0]: start of the run, of no block
     std::vector<PathBlock> blocks;  ///< [0]: before the first block
     std::optional<Alarm> alarm;     ///< the alarm that ended the run
+    bool limited = false;           ///< PathOptions::max_blocks ended the run
 };
 
 constexpr int arc_parts = 4;  ///< parts of an arc with PathOptions::arc_points
@@ -41,12 +42,15 @@ struct PathOptions {
                               ///< move)
     bool ends_only = false;   ///< one node a move
     bool arc_points = false;  ///< with ends_only: also three nodes along each arc
+    bool moves_only = false;  ///< no nodes are kept: only the end of the run is asked
     std::uint64_t max_blocks = 0;
 };
 
-/// Thrown when --max-seconds or Ctrl-C (WaitLimits) ends the work: a part of a path compares with
-/// nothing.
-struct PathEnded {};
+/// Thrown when --max-seconds or Ctrl-C (WaitLimits) ends the work, or PathOptions::max_blocks the
+/// program on the control as it is set: a part of a path compares with nothing.
+struct PathEnded {
+    bool by_blocks = false;
+};
 
 /// Runs the program on the setup's control. G31 always reaches its programmed end. Alarms are in
 /// the result. Throws PathEnded.

@@ -21,19 +21,33 @@ constexpr double rival_gap = 3.0;      ///< of the score: odds of 20 to 1
 /// Scores for one log.
 class Scorer {
   public:
-    Scorer(const LogView& log, const std::vector<int>& blocks) {
+    Scorer(const LogView& log, const std::vector<int>& blocks, double alike) : alike_(alike) {
         const double axes = static_cast<double>(log.axes.size());
         terms_ = axes * static_cast<double>(log.rows.size());
-        n_ = axes * static_cast<double>(std::set<int>(blocks.begin(), blocks.end()).size());
+        n_ = is_within_noise()
+                 ? terms_ / alike_
+                 : axes * static_cast<double>(std::set<int>(blocks.begin(), blocks.end()).size());
     }
+    bool is_within_noise() const { return alike_ > 0.0; }
     double score(double loss, std::size_t numbers) const {
-        return -0.5 * n_ * std::log(std::max(1.0, loss / terms_)) -
-               0.5 * static_cast<double>(numbers) * std::log(n_ + 1.0);
+        const double fit =
+            is_within_noise() ? loss / alike_ : n_ * std::log(std::max(1.0, loss / terms_));
+        return -0.5 * fit - 0.5 * static_cast<double>(numbers) * std::log(n_ + 1.0);
+    }
+    /// Least decrease of the loss on left-out rows.
+    double least_decrease(double loss) const {
+        return is_within_noise() ? 2.0 * least_gain * alike_ : least_shrink * (loss - terms_);
     }
     double noise_loss() const { return terms_; }
+    /// How far a candidate is behind the best one; not at all if it leaves as little, however many
+    /// numbers it has.
+    double behind(const GapCandidate& c, const GapCandidate& best) const {
+        const bool equal = std::abs(score(c.run.loss, 0) - score(best.run.loss, 0)) < equal_score;
+        return equal ? 0.0 : best.score - c.score;
+    }
 
   private:
-    double terms_ = 1.0, n_ = 1.0;
+    double terms_ = 1.0, n_ = 1.0, alike_ = 0.0;
 };
 
 /// Losses with each fold evaluated with the change only if the other folds support it.
@@ -61,16 +75,18 @@ std::vector<double> decided_elsewhere(const std::vector<double>& before,
 
 class Searcher {
   public:
-    Searcher(const Comparer& comparer, const setup::Setup& setup, const ComparedRun& before,
-             const std::vector<int>& blocks)
-        : comparer_(comparer), blocks_(blocks), scorer_(comparer.log(), blocks), options_(setup) {
-        found_.setup = setup;
-        found_.run = before;
-        found_.left_out = before.losses;
+    explicit Searcher(const SearchQuestion& question)
+        : comparer_(question.comparer),
+          blocks_(question.blocks),
+          scorer_(comparer_.log(), blocks_, question.alike),
+          options_(question.setup) {
+        found_.setup = question.setup;
+        found_.run = question.before;
+        found_.left_out = question.before.losses;
     }
 
     GapSearch search(const std::function<void(const char*)>& watch) {
-        for (std::size_t k = 0; k < most_steps && found_.run.loss > scorer_.noise_loss(); ++k) {
+        for (std::size_t k = 0; k < most_steps && is_searched(); ++k) {
             if (watch) watch("choices of the control");
             candidates_.clear();
             unseen_.clear();
@@ -84,6 +100,9 @@ class Searcher {
     }
 
   private:
+    bool is_searched() const {
+        return scorer_.is_within_noise() || found_.run.loss > scorer_.noise_loss();
+    }
     void add(GapCandidate candidate) {
         candidate.score = scorer_.score(candidate.run.loss, candidate.numbers.size());
         candidates_.push_back(std::move(candidate));
@@ -125,9 +144,8 @@ class Searcher {
         }
     }
     bool passes(const GapCandidate& c) const {
-        const double before = found_.run.loss - scorer_.noise_loss();
         return c.score > now() + least_gain &&
-               found_.run.loss - sum_of(c.left_out) > least_shrink * before;
+               found_.run.loss - sum_of(c.left_out) > scorer_.least_decrease(found_.run.loss);
     }
     double now() const { return scorer_.score(found_.run.loss, 0); }
 
@@ -140,9 +158,9 @@ class Searcher {
         double others = std::exp(now() - best->score), options = 0.0;
         for (const GapCandidate& c : candidates_) {
             if (&c == best) continue;
-            const double odds = std::exp(c.score - best->score);
+            const double behind = scorer_.behind(c, *best), odds = std::exp(-behind);
             others += odds;
-            const bool rival = c.score > best->score - rival_gap;
+            const bool rival = behind < rival_gap;
             if (rival) step.rivals.push_back(c.name);
             if (c.store) continue;
             options += odds;
@@ -151,6 +169,7 @@ class Searcher {
         options_odds_[best->name] = options;
         step.probability = 1.0 / (1.0 + others);
         step.only_passes_stop = !best->store && only_goes_on(best->run);
+        const double before = found_.run.loss;
         found_.left_out = best->left_out;
         best->take(found_.setup);
         found_.run = best->run;
@@ -158,7 +177,7 @@ class Searcher {
         step.chosen = std::move(*best);
         found_.steps.push_back(std::move(step));
         weigh_stores_together();
-        return true;
+        return found_.run.loss < before;  // else a further store was only for a foreign block
     }
     /// The present run ends in an alarm, and the other is nowhere better before.
     bool only_goes_on(const ComparedRun& other) const {
@@ -226,10 +245,9 @@ class Searcher {
 
 }  // namespace
 
-GapSearch search_causes(const Comparer& comparer, const setup::Setup& setup,
-                        const ComparedRun& before, const std::vector<int>& blocks,
+GapSearch search_causes(const SearchQuestion& question,
                         const std::function<void(const char*)>& watch) {
-    return Searcher(comparer, setup, before, blocks).search(watch);
+    return Searcher(question).search(watch);
 }
 
 }  // namespace trunnion::choices

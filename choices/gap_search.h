@@ -40,10 +40,19 @@ struct GapSearch {
     std::vector<std::string> unseen;
 };
 
-/// `blocks`: block of each row, from 0. Score: -n/2 ln(mean loss, at least 1) - k/2 ln n with n =
-/// blocks times axes. It is independent of scale, so an unexplained remainder tempers it.
-GapSearch search_causes(const Comparer& comparer, const setup::Setup& setup,
-                        const ComparedRun& before, const std::vector<int>& blocks,
+struct SearchQuestion {
+    const Comparer& comparer;
+    const setup::Setup& setup;
+    const ComparedRun& before;
+    const std::vector<int>& blocks;  ///< block of each row, from 0
+    double alike = 0.0;  ///< not 0: the difference is smaller than the noise of a row, and so many
+                         ///< rows count as one
+};
+
+/// Score: -n/2 ln(mean loss, at least 1) - k/2 ln n with n = blocks times axes. It is independent
+/// of scale, so an unexplained remainder tempers it. Within the noise: -loss/2 - k/2 ln n of the
+/// rows that count.
+GapSearch search_causes(const SearchQuestion& question,
                         const std::function<void(const char*)>& watch);
 
 }  // namespace trunnion::choices

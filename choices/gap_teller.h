@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,8 +20,10 @@ namespace trunnion::choices {
 /// Creates the results from runs of one log.
 class Teller {
   public:
-    Teller(const LogOfProgram& log, const BlockTexts& texts, const std::vector<int>& blocks)
-        : log_(log), texts_(texts), blocks_(blocks) {}
+    /// `directions`: in which each row can differ.
+    Teller(const LogOfProgram& log, const BlockTexts& texts, const std::vector<int>& blocks,
+           std::vector<double> directions)
+        : log_(log), texts_(texts), blocks_(blocks), directions_(std::move(directions)) {}
 
     double mean_um(const std::vector<double>& losses) const {
         double sum = 0.0;
@@ -28,7 +31,8 @@ class Teller {
         return std::sqrt(sum / static_cast<double>(losses.size()));
     }
     double noise_um() const {
-        return um(log_.sigma) * std::sqrt(static_cast<double>(log_.view.axes.size()));
+        const double all = std::accumulate(directions_.begin(), directions_.end(), 0.0);
+        return um(log_.sigma) * std::sqrt(all / static_cast<double>(directions_.size()));
     }
     double noise_loss() const {
         return static_cast<double>(log_.view.axes.size() * log_.view.rows.size());
@@ -76,12 +80,15 @@ class Teller {
     /// Removed part of the excess over the noise, as amplitude, with its spread over blocks.
     GapShrink shrink(const std::vector<double>& before, const std::vector<double>& after) const {
         GapShrink out{mean_um(before), mean_um(after), 0.0, 0.0, 0.0};
+        // The noise is not known to a few percent: beside a large gap it is taken generously.
+        const double axes = static_cast<double>(log_.view.axes.size());
+        const bool is_small = sum_of(before) < small_gap * noise_loss();
         std::map<int, std::array<double, 3>> sums;
         for (std::size_t row = 0; row < before.size(); ++row) {
             auto& s = sums[blocks_[row]];
             s[0] += before[row];
             s[1] += after[row];
-            s[2] += static_cast<double>(log_.view.axes.size());
+            s[2] += is_small ? directions_[row] : axes;
         }
         std::vector<std::array<double, 3>> list;
         for (const auto& [block, s] : sums) list.push_back(s);
@@ -108,6 +115,7 @@ class Teller {
   private:
     static constexpr std::size_t most_where = 5;
     static constexpr int draws = 400;
+    static constexpr double small_gap = 1.5;  ///< mean loss
 
     static double um(double mm) { return 1000.0 * mm; }
     template <class Pick>
@@ -134,6 +142,7 @@ class Teller {
     const LogOfProgram& log_;
     const BlockTexts& texts_;
     const std::vector<int>& blocks_;
+    std::vector<double> directions_;
 };
 
 }  // namespace trunnion::choices

@@ -23,6 +23,10 @@ struct JointStores {
     std::vector<double> left_out;  ///< losses of the rows, with their fold left out of the fit
 };
 
+/// Of a score: sets that differ by less leave as much of the gap. The one with fewer numbers is no
+/// surer than the other: that a program shows more numbers of a store says nothing about it.
+constexpr double equal_score = 0.05;
+
 /// Score of a set: of its loss and the number of its numbers.
 using SetScore = std::function<double(double loss, std::size_t numbers)>;
 
@@ -40,7 +44,8 @@ struct StoreQuestion {
 /// are known, and with these sets are compared by least squares without another run: a number or
 /// a store more, less, or in place of another, or one store in place of two. The best set is fitted
 /// through the control, and the comparison repeated there. `now`: with the stores found so far;
-/// what is returned scores at least as much.
+/// what is returned scores at least as much, apart from foreign blocks. A store in place of one of
+/// those found is fitted through the control, too.
 JointStores explained_together(const StoreQuestion& question, FittedControl now);
 
 }  // namespace trunnion::choices

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t least_differences = 10;  ///< of rows, for their scatter
 constexpr double median_of_square = 0.7;       ///< of a normal variable in two or three directions
 constexpr double visible = 9.0;                ///< loss of an axis: a row beyond it shows a gap
-constexpr double far_smaller = 1e-4;           ///< of a row's loss: what an effect beside may leave
+constexpr double clearly = 4.0;                ///< times the limit of a row: it is wrong
 constexpr double other_columns = 1e-3;         ///< of the loss: it is that of noise
 constexpr double most_scatter = 0.05;          ///< of the gap: a larger scatter is no noise
 
@@ -60,7 +60,7 @@ double reached(const std::vector<double>& before, const std::vector<double>& aft
     constexpr double spoiled_rows = 5.0;
     double rows = 0.0, good = 0.0;
     for (std::size_t row = 0; row < before.size(); ++row) {
-        const bool fits = after[row] <= std::max(row_limit, far_smaller * before[row]);
+        const bool fits = after[row] <= row_limit;
         if (before[row] > row_limit) {
             ++rows;
             good += fits ? 1.0 : 0.0;
@@ -69,6 +69,18 @@ double reached(const std::vector<double>& before, const std::vector<double>& aft
         }
     }
     return rows > 0.0 ? good / rows : 1.0;
+}
+
+bool stays_wrong(const std::vector<double>& before, const std::vector<double>& after,
+                 double row_limit) {
+    constexpr std::size_t one_in = 100;
+    std::size_t wrong = 0;
+    for (std::size_t row = 0; row < before.size(); ++row) {
+        if (after[row] <= clearly * row_limit) continue;
+        if (before[row] <= row_limit) return true;
+        ++wrong;
+    }
+    return one_in * wrong > before.size();
 }
 
 double row_limit_of(const LogOfProgram& log, const ComparedRun& base, const ComparedRun& explained,

@@ -18,10 +18,15 @@ std::vector<int> blocks_of(const LogView& log, const ComparedRun& run);
 std::optional<double> scatter_about(const LogView& view, const ComparedRun& run,
                                     const std::vector<int>& blocks);
 
-/// Part of the rows with a visible gap that an explanation brings down to noise, or to far less. An
-/// exact cause spoils no row: such a row counts as several.
+/// Part of the rows with a visible gap that an explanation brings down to noise. An exact cause
+/// spoils no row: such a row counts as several.
 double reached(const std::vector<double>& before, const std::vector<double>& after,
                double row_limit);
+
+/// Rows are clearly wrong with the explanation, one that was right or more than one in a hundred:
+/// it is not the whole truth.
+bool stays_wrong(const std::vector<double>& before, const std::vector<double>& after,
+                 double row_limit);
 
 /// Loss of a row that noise may have. Noise that nobody stated may be larger than the printed
 /// increment: then it is what the rows scatter from one to the next beside the explanation.

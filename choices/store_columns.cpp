@@ -106,14 +106,16 @@ std::vector<Column> columns_of(const Comparer& comparer, const setup::Setup& set
 }
 
 Normal normal_of(const Comparer& comparer, const ComparedRun& run,
-                 const std::vector<Column>& columns, const std::function<bool(std::size_t)>& use) {
+                 const std::vector<Column>& columns,
+                 const std::function<double(std::size_t)>& part) {
     const auto n = static_cast<Eigen::Index>(columns.size());
     Normal out{MatrixXd::Zero(n, n), VectorXd::Zero(n)};
     const std::vector<Axis>& axes = comparer.log().axes;
     for (std::size_t k = 0; k < run.pairs.size(); ++k) {
         const Pair& pair = run.pairs[k];
-        if (!use(pair.row)) continue;
-        const double weight = comparer.log().rows[pair.row].weight, w = weight * weight;
+        const double weight = comparer.log().rows[pair.row].weight,
+                     w = weight * weight * part(pair.row);
+        if (w == 0.0) continue;
         for (Eigen::Index a = 0; a < n; ++a) {
             const ControlPosition& column = columns[static_cast<std::size_t>(a)][k];
             out.right[a] += w * dot(column, pair.apart, axes);
@@ -127,7 +129,7 @@ Normal normal_of(const Comparer& comparer, const ComparedRun& run,
 
 Normal normal_of(const Comparer& comparer, const ComparedRun& run,
                  const std::vector<Column>& columns) {
-    return normal_of(comparer, run, columns, [](std::size_t) { return true; });
+    return normal_of(comparer, run, columns, [](std::size_t) { return 1.0; });
 }
 
 Normal part_of(const Normal& all, const std::vector<Eigen::Index>& list) {
@@ -158,7 +160,7 @@ std::vector<double> left_out_losses(const Comparer& comparer, const ComparedRun&
                                     const std::vector<int>& folds) {
     std::vector<double> out(run.losses.size(), 0.0);
     for (int fold = 0; fold < fold_count; ++fold) {
-        const auto others = [&](std::size_t row) { return folds[row] != fold; };
+        const auto others = [&](std::size_t row) { return folds[row] != fold ? 1.0 : 0.0; };
         const VectorXd x = solved(normal_of(comparer, run, columns, others), back);
         for (std::size_t k = 0; k < run.pairs.size(); ++k)
             if (folds[run.pairs[k].row] == fold)

@@ -38,9 +38,10 @@ struct Normal {
     Eigen::VectorXd right;
 };
 
-/// Of the pairs whose row `use` accepts.
+/// `part`: share with which each row counts, 0 to 1.
 Normal normal_of(const Comparer& comparer, const ComparedRun& run,
-                 const std::vector<Column>& columns, const std::function<bool(std::size_t)>& use);
+                 const std::vector<Column>& columns,
+                 const std::function<double(std::size_t)>& part);
 Normal normal_of(const Comparer& comparer, const ComparedRun& run,
                  const std::vector<Column>& columns);
 

@@ -56,9 +56,11 @@ diagnosis::Diagnosis diagnose_watched(const setup::Setup& setup, const records::
 }
 
 int diagnose_log(const DiagnoseOptions& options) {
-    if (!options.holdout.empty() || options.allow_large || options.readings.size() != 1)
+    if (!options.holdout.empty() || options.allow_large || !options.over.empty() ||
+        options.readings.size() != 1)
         throw InputError(
-            "--program takes one log of axis positions, without --holdout and --allow-large");
+            "--program takes one log of axis positions, without --holdout, --over and "
+            "--allow-large");
     return diagnose_program({options.readings.front(), options.setup, options.program, options.out,
                              options.folders, options.max_blocks, options.page, options.command,
                              options.limit_um.value_or(-1.0), options.json});

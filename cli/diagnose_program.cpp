@@ -35,9 +35,16 @@ choices::ControlGap found_gap(const ProgramDiagnosis& options, const setup::Setu
 }
 
 /// A search that is not finished has no rivals to weigh and names no cause.
-int report_ended() {
-    print_error("trunnion: {}: the search was not finished: nothing is judged and written\n",
-                reason_of(Interruption::asked() ? BudgetLimit::interruption : BudgetLimit::time));
+int report_ended(bool by_blocks) {
+    if (by_blocks)
+        print_error(
+            "trunnion: {}: the program does not end within it: nothing is judged and "
+            "written\n",
+            reason_of(BudgetLimit::blocks));
+    else
+        print_error(
+            "trunnion: {}: the search was not finished: nothing is judged and written\n",
+            reason_of(Interruption::asked() ? BudgetLimit::interruption : BudgetLimit::time));
     return exit_limit;
 }
 
@@ -64,8 +71,8 @@ int diagnose_program(const ProgramDiagnosis& options) {
     const Interruption interruption;
     try {
         return write_gap(options, found_gap(options, setup));
-    } catch (const choices::PathEnded&) {
-        return report_ended();
+    } catch (const choices::PathEnded& ended) {
+        return report_ended(ended.by_blocks);
     }
 }
 

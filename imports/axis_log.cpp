@@ -1,8 +1,12 @@
 // A servo log: commanded and actual positions of one or more axes.
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "base/alarm.h"
 #include "imports/log_columns.h"
 #include "imports/row_writer.h"
+#include "imports/units.h"
 
 namespace trunnion::imports {
 namespace {
@@ -58,12 +62,36 @@ void tell(const TextTable& table, const LogColumns& log, const TimeColumn& time,
     for (std::string& note : log_notes(table, log)) result.notes.push_back(std::move(note));
 }
 
+/// A log of positions during a program is compared as a path: an axis that is not in it has no
+/// position, which is not 0.
+void keep_logged_axes(const ImportRequest& request, const std::vector<TextTable>& tables,
+                      RowWriter& rows) {
+    std::vector<Axis> axes;
+    for (const TextTable& table : tables) {
+        const Facts facts = request.facts.with_head_of(table);
+        const TimeColumn time(table, facts);
+        LogColumns log = log_columns(table, request.setup, facts, time, true);
+        if (!log.places_only() || facts.has("at")) return;
+        for (AxisColumns& axis : log.axes)
+            if (axis.place()) axes.push_back(axis.axis);
+    }
+    rows.keep_axes(axes);
+}
+
+/// Also where every column names its own unit.
+void check_unit(const Facts& facts) {
+    const std::string name = facts.text("unit");
+    if (!name.empty() && !find_unit(name)) throw InputError("--with: '" + name + "' is no unit");
+}
+
 }  // namespace
 
 Imported import_axis_log(const ImportRequest& request) {
     Imported result;
     RowWriter rows(request.setup, "axis-log", rate_columns(request.setup), false, true);
     const std::vector<TextTable> tables = tables_of(request, result.notes);
+    check_unit(request.facts);
+    keep_logged_axes(request, tables, rows);
     for (const TextTable& table : tables) {
         const Facts facts = request.facts.with_head_of(table);
         const TimeColumn time(table, facts);

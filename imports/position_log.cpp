@@ -9,6 +9,7 @@
 #include "base/units.h"
 #include "imports/column_roles.h"
 #include "imports/file_tables.h"
+#include "imports/grid_step.h"
 #include "imports/log_columns.h"
 #include "imports/times.h"
 
@@ -16,6 +17,8 @@ namespace trunnion::imports {
 namespace {
 
 using Cells = std::vector<records::TableCell>;
+
+constexpr double farthest = 1e7;  ///< mm or rad
 
 struct PositionColumn {
     Axis axis = Axis::X;
@@ -123,8 +126,13 @@ records::LoggedPosition row_of(const TextTable& table, std::size_t i, const Cell
                                const PositionColumns& columns) {
     records::LoggedPosition row;
     row.line = table.line(i).number;
-    for (const PositionColumn& column : columns.positions)
-        row.at[column.axis] = number_in(table, i, cells, column.numbers);
+    for (const PositionColumn& column : columns.positions) {
+        const double at = number_in(table, i, cells, column.numbers);
+        if (!(std::abs(at) <= farthest))
+            table.line(i).fail("no axis goes as far: is it the right column and unit?",
+                               cells[column.numbers.index].column);
+        row.at[column.axis] = at;
+    }
     if (columns.block) row.block = block_in(table, i, cells[columns.block->column]);
     if (columns.program) row.program = cells[*columns.program].plain();
     if (columns.sigma && !cells[*columns.sigma].text.empty())
@@ -149,6 +157,7 @@ class PrintedStep {
         }
     }
     /// If trailing zeros are omitted, few decimals give no information.
+    double least() const { return step_; }
     double step() const {
         return fewest_ == most_ && most_ > 0 ? step_ : std::min(step_, usual_step);
     }
@@ -227,7 +236,7 @@ records::PositionLog read_position_log(std::string_view text, const std::string&
             log.rows.back().end = log.rows.back().end || row.end;
     }
     if (log.rows.empty()) table.header_line().fail("no row below this line", 1);
-    log.step = printed.step();
+    log.step = std::max(printed.step(), grid_step(log, printed.least()));
     return log;
 }
 

@@ -64,6 +64,13 @@ RowWriter::RowWriter(const setup::Setup& setup, const std::string& kind,
     text_ = writer_.head_text();
 }
 
+void RowWriter::keep_axes(const std::vector<Axis>& axes) {
+    std::erase_if(head_.axes, [&](Axis axis) {
+        return std::find(axes.begin(), axes.end(), axis) == axes.end();
+    });
+    text_ = writer_.head_text();
+}
+
 void RowWriter::begin_file(const std::string& path, const Facts& facts) {
     path_ = path;
     name_ = file_name_of(path_);

@@ -20,6 +20,9 @@ class RowWriter {
     /// instrument if the setup has any, are added). `setup` must outlive the writer.
     RowWriter(const setup::Setup& setup, const std::string& kind, std::vector<std::string> columns,
               bool directions, bool degrees);
+    /// Columns of these axes only: the file tells nothing about the others. Call it before all
+    /// else.
+    void keep_axes(const std::vector<Axis>& axes);
     /// Adds a last column that readings do not have: the block of a program. Call it before the
     /// first row.
     void add_column(const std::string& name);

@@ -121,7 +121,7 @@ std::string verdict_sentence(const choices::ControlGap& gap) {
         return size + "; no choice and no store of this control explains it.";
     std::vector<std::string> names;
     for (const choices::GapCause& cause : gap.causes)
-        if (cause.known) names.push_back(cause.name);
+        if (cause.known && choices::is_claimed(cause)) names.push_back(cause.name);
     return fmt::format("{}. {} explain{} {} % of it on blocks left out{}.", size,
                        fmt::join(names, " and "), names.size() == 1 ? "s" : "",
                        percent(gap.explained),

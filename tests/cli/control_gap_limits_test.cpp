@@ -1,4 +1,4 @@
-// diagnose --program under a limit of time.
+// diagnose --program under limits of time and blocks, and with options that do not belong to it.
 #include <catch2/catch.hpp>
 #include <filesystem>
 
@@ -41,4 +41,20 @@ TEST_CASE("diagnose --program: max-seconds ends the search, says so and writes n
     }
     CHECK(bench.diagnosed(" --max-seconds 1000") == 0);
     CHECK_THAT(bench.read("out.txt"), Catch::Contains("G54"));
+}
+
+TEST_CASE("diagnose --program: max-blocks ends it, says so and writes nothing") {
+    const Bench bench;
+    CHECK(bench.diagnosed(" --max-blocks 20") == 4);
+    CHECK_THAT(bench.read("err.txt"), Catch::Contains("--max-blocks: the program does not end"));
+    CHECK(bench.read("out.txt").empty());
+    CHECK_FALSE(std::filesystem::exists(bench.file("new.toml")));
+    bench.write("part.nc", "N1 G90 G21 G54\nN2 WHILE[1EQ1]DO1\nN3 G1 X1. F900.\nN4 X2.\nN5 END1\n");
+    CHECK(bench.diagnosed(" --max-blocks 100000") == 4);
+}
+
+TEST_CASE("diagnose --program: --over sessions is refused beside it") {
+    const Bench bench;
+    CHECK(bench.diagnosed(" --over sessions") == 2);
+    CHECK_THAT(bench.read("err.txt"), Catch::Contains("--over"));
 }

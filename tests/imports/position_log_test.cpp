@@ -1,6 +1,9 @@
 // Positions logged by a control: rows whose times run backwards are not in their order.
 #include "imports/position_log.h"
 
+#include <cmath>
+#include <cstdio>
+
 #include "base/alarm.h"
 #include "tests/imports/import_bench.h"
 
@@ -41,4 +44,58 @@ TEST_CASE("times of a log that stand still, are missing or pass midnight are in 
     CHECK(rows_of("time [ms],X cmd [mm]\n0,1\n0,2\n,3\n8,4\n") == 4);
     CHECK(rows_of("time,x_mm\n23:59:59,1\n00:00:00,2\n00:00:01,3\n") == 3);
     CHECK(rows_of("T,x_mm\n12,1\n3,2\n") == 2);  // a tool
+}
+
+TEST_CASE("a position that no axis reaches is refused with line and column") {
+    for (const char* cell : {"1e300", "-2e10", "1e8"}) {
+        INFO(cell);
+        try {
+            (void)rows_of(std::string("line,x_mm,y_mm\n3,1,2\n3,1,") + cell + "\n");
+            FAIL("not refused");
+        } catch (const InputError& e) {
+            CHECK(e.where.line == 3);
+            CHECK(e.where.column == 5);
+        }
+    }
+}
+
+TEST_CASE("the step of a log is that of its values where they are coarser than printed") {
+    const auto step_of = [](double grid_mm, int digits, int rows) {
+        std::string text = "line,x_mm,y_mm\n";
+        for (int k = 0; k < rows; ++k) {
+            char line[80];
+            const double x = grid_mm * std::round(40.0 * std::sin(0.02 * k) / grid_mm),
+                         y = grid_mm * std::round((0.137 * k - 7.0) / grid_mm);
+            std::snprintf(line, sizeof line, "3,%.*f,%.*f\n", digits, x, digits, y);
+            text += line;
+        }
+        return imports::read_position_log(text, "log.csv", import_bench::setup()).step;
+    };
+    CHECK(step_of(0.00254, 5, 500) == Approx(0.00254).epsilon(1e-3));
+    CHECK(step_of(0.00254, 6, 500) == Approx(0.00254).epsilon(1e-3));
+    CHECK(step_of(0.01, 4, 500) == Approx(0.01).epsilon(1e-3));
+    CHECK(step_of(0.001, 3, 500) == Approx(0.001));
+    CHECK(step_of(1e-5, 5, 500) == Approx(1e-5));
+    CHECK(step_of(0.01, 4, 20) == Approx(1e-4));  // too few to tell
+}
+
+TEST_CASE("a log of positions of some axes is imported without the others") {
+    const auto setup = import_bench::setup();
+    const std::string text = "N,X cmd [mm],Y cmd [mm]\n20,1.5,2.5\n20,1.75,2.5\n";
+    const auto log_of = [&](const std::vector<std::string>& told) {
+        return imports::read_position_log(
+            import_bench::imported(setup, {imports::ImportKind::axis_log, text, told, ""}).readings,
+            "log.csv", setup);
+    };
+    CHECK(log_of({}).axes == std::vector{Axis::X, Axis::Y});
+    CHECK(log_of({}).rows.size() == 2);
+    CHECK(log_of({}).rows[1].at[Axis::X] == 1.75);
+    CHECK(log_of({"at=Z=5"}).axes.size() == 5);  // told: the others stand at 0
+}
+
+TEST_CASE("an unknown unit is refused where all columns name their own, too") {
+    import_bench::refuses(
+        import_bench::setup(),
+        {imports::ImportKind::axis_log, "N,X cmd [mm]\n20,1.5\n", {"unit=furlong"}, ""}, "furlong",
+        0);
 }
