@@ -1,7 +1,10 @@
 #include "emulator/replay.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <deque>
 #include <map>
 #include <tuple>
@@ -208,13 +211,28 @@ kinematics::Perturbation Replay::gradient(std::size_t i, const kinematics::Forwa
     return result;
 }
 
+namespace {
+
+/// True where every entry is +0.
+bool is_still(const SmallMotion& motion) {
+    std::array<std::uint64_t, sizeof(SmallMotion) / sizeof(std::uint64_t)> words;
+    std::memcpy(words.data(), &motion, sizeof motion);
+    std::uint64_t any = 0;
+    for (const std::uint64_t word : words) any |= word;
+    return any == 0;
+}
+
+}  // namespace
+
 double dot(const kinematics::Perturbation& gradient, const kinematics::Perturbation& delta) {
-    // Component by component: independent sums that vectorise.
+    // Component by component: independent sums that vectorise. Most effects move one axis: what
+    // stands still adds nothing, and its derivatives need not come from memory.
     Vector3 sum = gradient.tip_shift_mm.cwiseProduct(delta.tip_shift_mm);
     Vector3 tilts = gradient.work_shift_mm.cwiseProduct(delta.work_shift_mm);
     double axes = gradient.reading_mm * delta.reading_mm;
     for (std::size_t k = 0; k < axis_count; ++k) {
-        axes += gradient.axis.value[k] * delta.axis.value[k];
+        if (delta.axis.value[k] != 0.0) axes += gradient.axis.value[k] * delta.axis.value[k];
+        if (is_still(delta.motion[k])) continue;
         sum += gradient.motion[k].shift_mm.cwiseProduct(delta.motion[k].shift_mm);
         tilts += gradient.motion[k].tilt_rad.cwiseProduct(delta.motion[k].tilt_rad);
     }
