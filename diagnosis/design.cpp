@@ -6,6 +6,7 @@
 
 #include "estimation/inner_products.h"
 #include "estimation/ranked_least_squares.h"
+#include "estimation/sparse_products.h"
 
 namespace trunnion::diagnosis {
 namespace {
@@ -82,8 +83,8 @@ std::vector<Design::Run> Design::runs_of(const std::vector<Eigen::Index>& featur
 Eigen::MatrixXd Design::products_of(const Block& a, const Block& b) {
     if (a.sparse.size() > 0 && b.sparse.size() > 0)
         return Eigen::MatrixXd(a.sparse.transpose() * b.sparse);
-    if (a.sparse.size() > 0) return a.sparse.transpose() * b.white;
-    if (b.sparse.size() > 0) return (b.sparse.transpose() * a.white).transpose();
+    if (a.sparse.size() > 0) return estimation::sparse_products(b.white, a.sparse).transpose();
+    if (b.sparse.size() > 0) return estimation::sparse_products(a.white, b.sparse);
     return &a == &b ? estimation::inner_products(a.white)
                     : estimation::inner_products(a.white, b.white);
 }
@@ -215,7 +216,13 @@ double Design::outside(std::size_t k, const std::vector<Eigen::Index>& features)
     return 1.0 - inside / std::max(1e-300, groups_[k].gram.trace());
 }
 
-Eigen::MatrixXd Design::columns(std::size_t k) const {
+const Eigen::MatrixXd& Design::columns(std::size_t k) {
+    Eigen::MatrixXd& own = columns_[k];
+    if (own.size() == 0) own = worked_out(k);
+    return own;
+}
+
+Eigen::MatrixXd Design::worked_out(std::size_t k) const {
     const ColumnGroup& group = groups_[k].group;
     if (const std::vector<Run>& runs = groups_[k].runs; runs.size() == 1 && is_shaped(group))
         if (const auto& sparse = blocks_[runs.front().block].sparse;

@@ -65,8 +65,8 @@ class Design {
     double freedom() const { return rows_ - static_cast<double>(projection_.rank()); }
     /// Whitened columns of a group without projecting out the set-up: rows x columns. Those of a
     /// driver are beside the set-up: a driver predicts nothing, and where it is left out, the
-    /// set-up must not lack what both of them can do.
-    Eigen::MatrixXd columns(std::size_t group) const;
+    /// set-up must not lack what both of them can do. Kept: every division into folds needs them.
+    const Eigen::MatrixXd& columns(std::size_t group);
     /// These columns times coefficients.
     Eigen::VectorXd combined(std::size_t group, const Eigen::VectorXd& coefficients) const;
 
@@ -124,6 +124,7 @@ class Design {
                                                Eigen::MatrixXd Block::*part,
                                                Eigen::MatrixXd& storage) const;
     std::size_t append(Entry entry);
+    Eigen::MatrixXd worked_out(std::size_t group) const;  ///< columns() of it
     const Eigen::MatrixXd& products(std::size_t first, std::size_t second);
     const Eigen::MatrixXd& coordinates(std::size_t member);
     Eigen::VectorXd product_of(const std::vector<Eigen::Index>& features) const;
@@ -145,6 +146,7 @@ class Design {
     mutable std::map<Pair, Eigen::MatrixXd>
         between_;                                  ///< of blocks, the first not after the second
     std::map<Pair, Eigen::MatrixXd> products_of_;  ///< of groups, likewise
+    std::map<std::size_t, Eigen::MatrixXd> columns_;      ///< of groups
     std::map<std::size_t, Eigen::MatrixXd> coordinates_;  ///< of members: inside the set-up
     mutable Eigen::MatrixXd inverse_;                     ///< inverse gram of the owned features
 };
