@@ -216,7 +216,7 @@ double Design::outside(std::size_t k, const std::vector<Eigen::Index>& features)
     return 1.0 - inside / std::max(1e-300, groups_[k].gram.trace());
 }
 
-const Eigen::MatrixXd& Design::columns(std::size_t k) {
+const Eigen::MatrixXd& Design::columns(std::size_t k) const {
     Eigen::MatrixXd& own = columns_[k];
     if (own.size() == 0) own = worked_out(k);
     return own;
@@ -303,6 +303,24 @@ estimation::GroupEquations Design::equations(const std::vector<std::size_t>& mem
     e.square = data_.squaredNorm() - data_coordinates_.squaredNorm();
     e.rows = freedom();
     return e;
+}
+
+std::shared_ptr<HeldMembers> Design::held(const std::vector<std::size_t>& members,
+                                          const estimation::Variances& variances) {
+    constexpr std::size_t kept = 4;
+    const auto at = std::find_if(held_.begin(), held_.end(), [&](const auto& held) {
+        return held->members == members && held->variances == variances;
+    });
+    if (at != held_.end()) {
+        std::rotate(held_.begin(), at, std::next(at));
+        return held_.front();
+    }
+    estimation::GroupEquations own = equations(members);
+    estimation::GivenMembers given(own, variances);
+    held_.push_front(std::make_shared<HeldMembers>(
+        HeldMembers{members, variances, std::move(own), std::move(given), {}, {}}));
+    if (held_.size() > kept) held_.pop_back();
+    return held_.front();
 }
 
 /// Marks the blocks that hold features of these groups.

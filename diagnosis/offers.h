@@ -2,7 +2,6 @@
 // group in its place: one factorisation for all of them.
 #pragma once
 
-#include <map>
 #include <optional>
 
 #include "diagnosis/search.h"
@@ -40,8 +39,9 @@ class OffersBeside {
         Eigen::VectorXd mean;  ///< of their coefficients
         std::optional<estimation::GivenOthers> others;
         std::optional<std::size_t> instead;
+        std::optional<std::size_t> position;  ///< of the member that is absent
     };
-    Beside changed(std::size_t position, std::optional<std::size_t> instead);
+    const Beside& changed(std::size_t position, std::optional<std::size_t> instead);
     estimation::GivenOthers others(std::size_t position, std::optional<std::size_t> instead);
     std::vector<Offer> offered(const Beside& beside, const Takes& takes);
     std::vector<Offer> exact(const Beside& beside, const std::vector<std::size_t>& groups);
@@ -50,14 +50,9 @@ class OffersBeside {
 
     Design& design_;
     Model model_;
-    estimation::GivenMembers given_;
+    std::shared_ptr<HeldMembers> held_;
     std::vector<Eigen::Index> first_;
-    /// What the whole model takes and leaves of a group.
-    struct Seen {
-        Eigen::MatrixXd taken;
-        estimation::GroupInformation left;
-    };
-    std::map<std::size_t, Seen> seen_;  ///< of groups that were offered
+    std::optional<Beside> last_;  ///< changed last
 };
 
 }  // namespace trunnion::diagnosis

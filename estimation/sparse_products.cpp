@@ -37,8 +37,9 @@ Eigen::MatrixXd sparse_products(const Eigen::Ref<const Eigen::MatrixXd>& b,
     Eigen::MatrixXd sums(width, a.cols());
     for (Eigen::Index j = 0; j < a.cols(); ++j) {
         const auto first = a.outerIndexPtr()[j];
-        sum_rows({a.valuePtr() + first, a.innerIndexPtr() + first, a.outerIndexPtr()[j + 1] - first},
-                 across.data(), width, sums.col(j).data());
+        sum_rows(
+            {a.valuePtr() + first, a.innerIndexPtr() + first, a.outerIndexPtr()[j + 1] - first},
+            across.data(), width, sums.col(j).data());
     }
     return sums.topRows(b.cols());
 }
