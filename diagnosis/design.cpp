@@ -298,8 +298,21 @@ estimation::GroupEquations Design::equations(const std::vector<std::size_t>& mem
     e.product.resize(e.first(members.size()));
     for (std::size_t k = 0; k < members.size(); ++k)
         e.product.segment(e.first(k), e.size[k]) = groups_[members[k]].product;
-    const Eigen::MatrixXd gram = cross(members, members);
-    e.gram = 0.5 * (gram + gram.transpose());
+    e.gram.resize(e.product.size(), e.product.size());
+    for (std::size_t b = 0; b < members.size(); ++b)
+        for (std::size_t a = 0; a <= b; ++a) {
+            auto part = e.gram.block(e.first(a), e.first(b), e.size[a], e.size[b]);
+            if (a == b) {
+                const Eigen::MatrixXd& own = products(members[a], members[a]);
+                part = 0.5 * (own + own.transpose());
+                continue;
+            }
+            if (members[a] <= members[b])
+                part = products(members[a], members[b]);
+            else
+                part = products(members[b], members[a]).transpose();
+            e.gram.block(e.first(b), e.first(a), e.size[b], e.size[a]) = part.transpose();
+        }
     e.square = data_.squaredNorm() - data_coordinates_.squaredNorm();
     e.rows = freedom();
     return e;

@@ -74,12 +74,15 @@ Eigen::VectorXd by_column(const GroupEquations& equations, const Variances& vari
     return tau;
 }
 
-/// I + D G D / nu^2, padded by a unit matrix.
+/// Lower triangle of I + D G D / nu^2, padded by a unit matrix.
 Eigen::MatrixXd scaled_gram(const GroupEquations& equations, const Eigen::VectorXd& tau,
                             double nu) {
     const Eigen::Index own = tau.size(), rows = padded_rows(own);
     Eigen::MatrixXd m = Eigen::MatrixXd::Zero(rows, rows);
-    m.topLeftCorner(own, own) = tau.asDiagonal() * equations.gram * tau.asDiagonal() / (nu * nu);
+    for (Eigen::Index j = 0; j < own; ++j)
+        m.col(j).segment(j, own - j) =
+            tau.tail(own - j).cwiseProduct(equations.gram.col(j).tail(own - j)) * tau(j) /
+            (nu * nu);
     m.diagonal().array() += 1.0;
     return m;
 }
