@@ -1,7 +1,6 @@
 #include "emulator/replay.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -215,11 +214,12 @@ namespace {
 
 /// True where every entry is +0.
 bool is_still(const SmallMotion& motion) {
-    std::array<std::uint64_t, sizeof(SmallMotion) / sizeof(std::uint64_t)> words;
-    std::memcpy(words.data(), &motion, sizeof motion);
-    std::uint64_t any = 0;
-    for (const std::uint64_t word : words) any |= word;
-    return any == 0;
+    using Pair [[gnu::vector_size(2 * sizeof(std::uint64_t))]] = std::uint64_t;
+    Pair parts[3];
+    static_assert(sizeof parts == sizeof motion);
+    std::memcpy(parts, &motion, sizeof parts);
+    const Pair any = parts[0] | parts[1] | parts[2];
+    return (any[0] | any[1]) == 0;
 }
 
 }  // namespace
