@@ -15,8 +15,6 @@ namespace trunnion::diagnosis {
 namespace {
 
 constexpr double doubtful = 0.4;  ///< probability at most of causes that cancel each other
-/// A rival is to be named also where it has more parameters, so that its gain is small.
-constexpr std::size_t looked_at = 40;
 /// Probability at most where the search was ended before a contender was looked for.
 constexpr double unchallenged_most = 0.8;
 
@@ -299,7 +297,7 @@ std::vector<Claim> claims_of(const Searching& search, const Model& model, const 
                              const HeldOutEvidence& heldout) {
     Design& design = search.design;
     const std::vector<Offer> worth = worth_of_members(design, model);
-    OffersBeside beside(design, model, looked_at);
+    OffersBeside beside(design, model);
     std::vector<Claim> claims;
     // Where far more remains than noise may be, sigma is no measure of what is small.
     const double left = model.variances.nu / std::sqrt(sizes.floor);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "estimation/free_form.h"
 
@@ -38,6 +39,27 @@ void drop_sessions(Eigen::MatrixXd& columns, const emulator::Replay& replay,
             columns.row(static_cast<Eigen::Index>(i)).setZero();
 }
 
+namespace {
+
+/// What each feature of one direction has of the error at a position, those that have none left
+/// out: the two places beside it, or the harmonics.
+void shares_at(const TableForm& table, double q,
+               std::vector<std::pair<Eigen::Index, double>>& shares) {
+    shares.clear();
+    if (!table.knots.empty()) {
+        const auto [knot, weight] = estimation::place_between(table.knots, q);
+        shares.emplace_back(knot, 1.0 - weight);
+        shares.emplace_back(knot + 1, weight);
+        return;
+    }
+    for (int n = 0; n < table.orders; ++n) {
+        shares.emplace_back(2 * n, std::cos((table.first_order + n) * q));
+        shares.emplace_back(2 * n + 1, std::sin((table.first_order + n) * q));
+    }
+}
+
+}  // namespace
+
 Eigen::MatrixXd table_features(const emulator::Replay& replay,
                                const std::vector<kinematics::Perturbation>& gradient,
                                const TableForm& table) {
@@ -50,8 +72,9 @@ Eigen::MatrixXd table_features(const emulator::Replay& replay,
         play =
             identification::effect_column(replay, gradient, {*table.play, table.play->zeros(), 0}) *
             (table_unit(table.directions[0]) / table.play->parameters[0].typical);
+    std::vector<std::pair<Eigen::Index, double>> shares;
     for (std::size_t i = 0; i < replay.size(); ++i) {
-        const double q = replay.sample(i).position[table.axis.axis];
+        shares_at(table, replay.sample(i).position[table.axis.axis], shares);
         const SmallMotion& motion = gradient[i].motion[index_of(table.axis.axis)];
         const auto row = static_cast<Eigen::Index>(i);
         for (std::size_t k = 0; k < table.directions.size(); ++k) {
@@ -60,16 +83,7 @@ Eigen::MatrixXd table_features(const emulator::Replay& replay,
                 table.play ? play(row)
                            : table_unit(d) * (d < 3 ? motion.shift_mm(d) : motion.tilt_rad(d - 3));
             const Eigen::Index at = each * static_cast<Eigen::Index>(k);
-            if (!table.knots.empty()) {
-                const auto [knot, weight] = estimation::place_between(table.knots, q);
-                features(row, at + knot) = by * (1.0 - weight);
-                features(row, at + knot + 1) = by * weight;
-                continue;
-            }
-            for (int n = 0; n < table.orders; ++n) {
-                features(row, at + 2 * n) = by * std::cos((table.first_order + n) * q);
-                features(row, at + 2 * n + 1) = by * std::sin((table.first_order + n) * q);
-            }
+            for (const auto& [feature, share] : shares) features(row, at + feature) = by * share;
         }
     }
     return features;

@@ -6,6 +6,7 @@
 
 #include "estimation/inner_products.h"
 #include "estimation/ranked_least_squares.h"
+#include "estimation/sparse_products.h"
 
 namespace trunnion::diagnosis {
 namespace {
@@ -82,8 +83,8 @@ std::vector<Design::Run> Design::runs_of(const std::vector<Eigen::Index>& featur
 Eigen::MatrixXd Design::products_of(const Block& a, const Block& b) {
     if (a.sparse.size() > 0 && b.sparse.size() > 0)
         return Eigen::MatrixXd(a.sparse.transpose() * b.sparse);
-    if (a.sparse.size() > 0) return a.sparse.transpose() * b.white;
-    if (b.sparse.size() > 0) return (b.sparse.transpose() * a.white).transpose();
+    if (a.sparse.size() > 0) return estimation::sparse_products(b.white, a.sparse).transpose();
+    if (b.sparse.size() > 0) return estimation::sparse_products(a.white, b.sparse);
     return &a == &b ? estimation::inner_products(a.white)
                     : estimation::inner_products(a.white, b.white);
 }
@@ -215,7 +216,13 @@ double Design::outside(std::size_t k, const std::vector<Eigen::Index>& features)
     return 1.0 - inside / std::max(1e-300, groups_[k].gram.trace());
 }
 
-Eigen::MatrixXd Design::columns(std::size_t k) const {
+const Eigen::MatrixXd& Design::columns(std::size_t k) const {
+    Eigen::MatrixXd& own = columns_[k];
+    if (own.size() == 0) own = worked_out(k);
+    return own;
+}
+
+Eigen::MatrixXd Design::worked_out(std::size_t k) const {
     const ColumnGroup& group = groups_[k].group;
     if (const std::vector<Run>& runs = groups_[k].runs; runs.size() == 1 && is_shaped(group))
         if (const auto& sparse = blocks_[runs.front().block].sparse;
@@ -291,11 +298,42 @@ estimation::GroupEquations Design::equations(const std::vector<std::size_t>& mem
     e.product.resize(e.first(members.size()));
     for (std::size_t k = 0; k < members.size(); ++k)
         e.product.segment(e.first(k), e.size[k]) = groups_[members[k]].product;
-    const Eigen::MatrixXd gram = cross(members, members);
-    e.gram = 0.5 * (gram + gram.transpose());
+    e.gram.resize(e.product.size(), e.product.size());
+    for (std::size_t b = 0; b < members.size(); ++b)
+        for (std::size_t a = 0; a <= b; ++a) {
+            auto part = e.gram.block(e.first(a), e.first(b), e.size[a], e.size[b]);
+            if (a == b) {
+                const Eigen::MatrixXd& own = products(members[a], members[a]);
+                part = 0.5 * (own + own.transpose());
+                continue;
+            }
+            if (members[a] <= members[b])
+                part = products(members[a], members[b]);
+            else
+                part = products(members[b], members[a]).transpose();
+            e.gram.block(e.first(b), e.first(a), e.size[b], e.size[a]) = part.transpose();
+        }
     e.square = data_.squaredNorm() - data_coordinates_.squaredNorm();
     e.rows = freedom();
     return e;
+}
+
+std::shared_ptr<HeldMembers> Design::held(const std::vector<std::size_t>& members,
+                                          const estimation::Variances& variances) {
+    constexpr std::size_t kept = 4;
+    const auto at = std::find_if(held_.begin(), held_.end(), [&](const auto& held) {
+        return held->members == members && held->variances == variances;
+    });
+    if (at != held_.end()) {
+        std::rotate(held_.begin(), at, std::next(at));
+        return held_.front();
+    }
+    estimation::GroupEquations own = equations(members);
+    estimation::GivenMembers given(own, variances);
+    held_.push_front(std::make_shared<HeldMembers>(
+        HeldMembers{members, variances, std::move(own), std::move(given), {}, {}}));
+    if (held_.size() > kept) held_.pop_back();
+    return held_.front();
 }
 
 /// Marks the blocks that hold features of these groups.

@@ -14,11 +14,13 @@
 #include <Eigen/SparseCore>
 #include <deque>
 #include <map>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "diagnosis/column_group.h"
+#include "diagnosis/held_members.h"
 #include "estimation/projection.h"
 #include "estimation/variance_groups.h"
 
@@ -66,12 +68,16 @@ class Design {
     double freedom() const { return rows_ - static_cast<double>(projection_.rank()); }
     /// Whitened columns of a group without projecting out the set-up: rows x columns. Those of a
     /// driver are beside the set-up: a driver predicts nothing, and where it is left out, the
-    /// set-up must not lack what both of them can do.
-    Eigen::MatrixXd columns(std::size_t group) const;
+    /// set-up must not lack what both of them can do. Kept: every division into folds needs them.
+    const Eigen::MatrixXd& columns(std::size_t group) const;
     /// These columns times coefficients.
     Eigen::VectorXd combined(std::size_t group, const Eigen::VectorXd& coefficients) const;
 
     estimation::GroupEquations equations(const std::vector<std::size_t>& members);
+    /// The members at these variances. The last few are kept: one step of a search often ends with
+    /// the model from which the next one starts.
+    std::shared_ptr<HeldMembers> held(const std::vector<std::size_t>& members,
+                                      const estimation::Variances& variances);
     /// Products of the members' columns with those of other groups, side by side in their order.
     Eigen::MatrixXd cross(const std::vector<std::size_t>& members,
                           const std::vector<std::size_t>& groups);
@@ -130,6 +136,7 @@ class Design {
                                                Eigen::MatrixXd Block::*part,
                                                Eigen::MatrixXd& storage) const;
     std::size_t append(Entry entry);
+    Eigen::MatrixXd worked_out(std::size_t group) const;  ///< columns() of it
     const Eigen::MatrixXd& products(std::size_t first, std::size_t second);
     const Eigen::MatrixXd& coordinates(std::size_t member);
     Eigen::VectorXd product_of(const std::vector<Eigen::Index>& features) const;
@@ -151,8 +158,10 @@ class Design {
     mutable std::map<Pair, Eigen::MatrixXd>
         between_;                                  ///< of blocks, the first not after the second
     std::map<Pair, Eigen::MatrixXd> products_of_;  ///< of groups, likewise
-    std::map<std::size_t, Eigen::MatrixXd> coordinates_;  ///< of members: inside the set-up
-    mutable Eigen::MatrixXd inverse_;                     ///< inverse gram of the owned features
+    mutable std::map<std::size_t, Eigen::MatrixXd> columns_;  ///< of groups
+    std::deque<std::shared_ptr<HeldMembers>> held_;           ///< the last one first
+    std::map<std::size_t, Eigen::MatrixXd> coordinates_;      ///< of members: inside the set-up
+    mutable Eigen::MatrixXd inverse_;  ///< inverse gram of the owned features
 };
 
 }  // namespace trunnion::diagnosis

@@ -97,7 +97,7 @@ FoldColumns::FoldColumns(Design& design, const LeftOutRows& rows)
 const FoldColumns::ByFold& FoldColumns::of(std::size_t group) {
     ByFold& own = columns_[group];
     if (!own.empty()) return own;
-    const Eigen::MatrixXd all = group == set_up ? design_.known() : design_.columns(group);
+    const Eigen::MatrixXd& all = group == set_up ? design_.known() : design_.columns(group);
     for (const auto& rows : rows_) own.push_back(all(rows, Eigen::all));
     return own;
 }

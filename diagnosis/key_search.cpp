@@ -148,7 +148,7 @@ Eigen::VectorXd KeySearch::fine_gains(const std::vector<Setting*>& finalists,
         all.middleCols(at, s->fine.cols()) = s->fine;
         at += s->fine.cols();
     }
-    Eigen::MatrixXd taken = remainder.fitted.transpose() * all;
+    Eigen::MatrixXd taken = estimation::inner_products(remainder.fitted, all);
     // Without columns Eigen would solve by way of a null pointer.
     if (taken.size() > 0) remainder.factor.matrixL().solveInPlace(taken);
     Eigen::VectorXd gain(static_cast<Eigen::Index>(finalists.size()));

@@ -1,7 +1,6 @@
 #include "diagnosis/machine_jump.h"
 
 #include "diagnosis/candidate_groups.h"
-#include "diagnosis/solution.h"
 #include "identification/identify.h"
 
 namespace trunnion::diagnosis {
@@ -25,18 +24,16 @@ effects::Catalogue jumps_like_moves(const effects::Catalogue& catalogue) {
 }
 
 void add_jumps_instead(Design& design, const Prepared& prepared, const Whitener& whitener,
-                       KeySearch& search, const Model& model) {
+                       Rests& rests, const Model& model) {
     for (std::size_t k = 0; k < model.members.size(); ++k) {
         const effects::Effect* effect = design.group(model.members[k]).effect;
         if (!effect || effect->kind != effects::EffectKind::thermal_drift) continue;
-        const Model rest = without(model, k);
-        const Eigen::VectorXd left = left_mm(prepared, design, rest, solved(design, rest));
-        const auto remainder = search.remainder(left, fitted_mm(prepared, design, rest));
+        const Rests::Rest rest = rests.of(without(model, k));
         for (const effects::Effect& jump : prepared.only_rivals)
-            for (auto& keys : search.best(jump, remainder, 1))
+            for (auto& keys : rests.keys().best(jump, rest.remainder, 1))
                 add_machine_jump(design, prepared, whitener, jump,
                                  identification::refine_keys(prepared.replay, prepared.base, jump,
-                                                             std::move(keys), left));
+                                                             std::move(keys), rest.mm));
     }
 }
 

@@ -1,10 +1,9 @@
 // A jump of the machine: a rival of an artefact's move and of a drift, of which no setup knows.
 #pragma once
 
-#include "diagnosis/key_search.h"
 #include "diagnosis/noise.h"
 #include "diagnosis/prepare.h"
-#include "diagnosis/search.h"
+#include "diagnosis/rests.h"
 #include "effects/catalogue.h"
 
 namespace trunnion::diagnosis {
@@ -21,6 +20,6 @@ effects::Catalogue jumps_like_moves(const effects::Catalogue& catalogue);
 /// Adds, as a rival, the jump that does most in place of a drift in the model, its time refined:
 /// both are courses of time.
 void add_jumps_instead(Design& design, const Prepared& prepared, const Whitener& whitener,
-                       KeySearch& search, const Model& model);
+                       Rests& rests, const Model& model);
 
 }  // namespace trunnion::diagnosis

@@ -6,6 +6,8 @@
 namespace trunnion::diagnosis {
 namespace {
 
+constexpr std::size_t looked_at = 20;  ///< number of offers whose exact gain is computed
+
 /// Visible groups that no member contains in another form.
 std::vector<std::size_t> possible(const Design& design, const std::vector<std::size_t>& members,
                                   const OffersBeside::Takes& takes) {
@@ -31,11 +33,8 @@ double unusual_size(const Design& design, const Offer& offer) {
     return std::log1p(std::pow(offer.gain.tau / usual, 2));
 }
 
-OffersBeside::OffersBeside(Design& design, const Model& model, std::size_t most)
-    : design_(design),
-      model_(model),
-      most_(most),
-      given_(design.equations(model.members), model.variances) {
+OffersBeside::OffersBeside(Design& design, const Model& model)
+    : design_(design), model_(model), held_(design.held(model.members, model.variances)) {
     Eigen::Index first = 0;
     for (const std::size_t m : model.members) {
         first_.push_back(first);
@@ -47,14 +46,15 @@ OffersBeside::OffersBeside(Design& design, const Model& model, std::size_t most)
 void OffersBeside::see(const std::vector<std::size_t>& groups) {
     std::vector<std::size_t> missing;
     for (const std::size_t k : groups)
-        if (!seen_.contains(k)) missing.push_back(k);
+        if (!held_->seen.contains(k)) missing.push_back(k);
     if (missing.empty()) return;
-    const Eigen::MatrixXd taken = given_.taken(design_.cross(model_.members, missing));
+    const Eigen::MatrixXd taken = held_->given.taken(design_.cross(model_.members, missing));
     Eigen::Index at = 0;
     for (const std::size_t k : missing) {
         const auto& entry = design_.groups()[k];
         const auto own = taken.middleCols(at, entry.group.columns());
-        seen_.emplace(k, Seen{own, given_.leave_beside(own, entry.gram, entry.product)});
+        held_->seen.emplace(
+            k, HeldMembers::Seen{own, held_->given.leave_beside(own, entry.gram, entry.product)});
         at += own.cols();
     }
 }
@@ -62,18 +62,20 @@ void OffersBeside::see(const std::vector<std::size_t>& groups) {
 estimation::GivenOthers OffersBeside::others(std::size_t position,
                                              std::optional<std::size_t> instead) {
     const double tau = model_.variances.tau[position];
-    estimation::GivenOthers rest(given_, first_[position],
+    estimation::GivenOthers rest(held_->given, first_[position],
                                  design_.group(model_.members[position]).columns(), tau);
     if (!instead) return rest;
     see({*instead});
-    const Seen& own = seen_.at(*instead);
+    const HeldMembers::Seen& own = held_->seen.at(*instead);
     rest.replace(own.taken, own.left, tau);
     return rest;
 }
 
-OffersBeside::Beside OffersBeside::changed(std::size_t position,
-                                           std::optional<std::size_t> instead) {
-    Beside beside{model_.members, {}, others(position, instead), instead};
+const OffersBeside::Beside& OffersBeside::changed(std::size_t position,
+                                                  std::optional<std::size_t> instead) {
+    if (last_ && last_->position == position && last_->instead == instead) return *last_;
+    Beside& beside =
+        last_.emplace(Beside{model_.members, {}, others(position, instead), instead, position});
     const Eigen::VectorXd mean = beside.others->mean(), own = beside.others->mean_in_place();
     const Eigen::Index first = first_[position],
                        after = first + design_.group(model_.members[position]).columns();
@@ -89,19 +91,19 @@ OffersBeside::Beside OffersBeside::changed(std::size_t position,
 
 /// Of many groups, keeps the few with the largest lower bound of their gain.
 void OffersBeside::keep_best(std::vector<std::size_t>& groups, const Beside& beside) const {
-    if (groups.size() <= most_ || beside.members.empty()) return;
+    if (groups.size() <= looked_at || beside.members.empty()) return;
     const double factor = 1.0 / (model_.variances.nu * model_.variances.nu);
     const Eigen::VectorXd left = factor * design_.left(beside.members, beside.mean, groups);
     std::vector<std::pair<double, std::size_t>> least;
     for (const std::size_t k : groups) {
         const auto& entry = design_.groups()[k];
-        const estimation::GroupGain gain =
-            estimation::group_gain(*entry.reduced, design_.of_group(k, left), factor);
-        least.emplace_back(-gain.mean - entry.group.log_prior, k);
+        const double gain =
+            estimation::mean_gain(*entry.reduced, design_.of_group(k, left), factor);
+        least.emplace_back(-gain - entry.group.log_prior, k);
     }
-    std::nth_element(least.begin(), least.begin() + static_cast<long>(most_), least.end());
+    std::nth_element(least.begin(), least.begin() + static_cast<long>(looked_at), least.end());
     groups.clear();
-    for (std::size_t k = 0; k < most_; ++k) groups.push_back(least[k].second);
+    for (std::size_t k = 0; k < looked_at; ++k) groups.push_back(least[k].second);
     std::sort(groups.begin(), groups.end());
 }
 
@@ -111,7 +113,7 @@ std::vector<Offer> OffersBeside::exact(const Beside& beside,
     see(groups);
     std::vector<Offer> list;
     for (const std::size_t k : groups) {
-        const Seen& own = seen_.at(k);
+        const HeldMembers::Seen& own = held_->seen.at(k);
         if (!beside.others)
             list.push_back(offer_of(design_, k, own.left));
         else if (!beside.instead)
@@ -133,7 +135,7 @@ std::vector<Offer> OffersBeside::offered(const Beside& beside, const Takes& take
 }
 
 std::vector<Offer> OffersBeside::all(const Takes& takes) {
-    return offered({model_.members, given_.mean(), std::nullopt, std::nullopt}, takes);
+    return offered({model_.members, held_->given.mean(), {}, {}, {}}, takes);
 }
 
 std::vector<Offer> OffersBeside::without(std::size_t position, const Takes& takes,
@@ -142,7 +144,7 @@ std::vector<Offer> OffersBeside::without(std::size_t position, const Takes& take
 }
 
 double OffersBeside::gained(std::size_t position, std::optional<std::size_t> instead) {
-    return others(position, instead).gained();
+    return changed(position, instead).others->gained();
 }
 
 std::vector<Offer> OffersBeside::other_forms(std::size_t position) {
@@ -165,7 +167,7 @@ std::vector<Offer> OffersBeside::spoiled_visits() {
     std::vector<std::size_t> visits;
     for (std::size_t k = 0; k < design_.groups().size(); ++k)
         if (design_.group(k).kind == GroupKind::spoiled) visits.push_back(k);
-    return exact({model_.members, given_.mean(), std::nullopt, std::nullopt}, visits);
+    return exact({model_.members, held_->given.mean(), {}, {}, {}}, visits);
 }
 
 }  // namespace trunnion::diagnosis

@@ -2,7 +2,6 @@
 // group in its place: one factorisation for all of them.
 #pragma once
 
-#include <map>
 #include <optional>
 
 #include "diagnosis/search.h"
@@ -17,9 +16,7 @@ double unusual_size(const Design& design, const Offer& offer);
 class OffersBeside {
   public:
     using Takes = std::function<bool(GroupKind)>;
-    /// Of many groups the exact gain of only `most` is computed: it costs the square of the model
-    /// size.
-    OffersBeside(Design& design, const Model& model, std::size_t most = 20);
+    OffersBeside(Design& design, const Model& model);
 
     /// All visible groups that the model does not contain in another form, best first; only kinds
     /// accepted by `takes`, if given.
@@ -44,8 +41,9 @@ class OffersBeside {
         Eigen::VectorXd mean;  ///< of their coefficients
         std::optional<estimation::GivenOthers> others;
         std::optional<std::size_t> instead;
+        std::optional<std::size_t> position;  ///< of the member that is absent
     };
-    Beside changed(std::size_t position, std::optional<std::size_t> instead);
+    const Beside& changed(std::size_t position, std::optional<std::size_t> instead);
     estimation::GivenOthers others(std::size_t position, std::optional<std::size_t> instead);
     std::vector<Offer> offered(const Beside& beside, const Takes& takes);
     std::vector<Offer> exact(const Beside& beside, const std::vector<std::size_t>& groups);
@@ -54,15 +52,9 @@ class OffersBeside {
 
     Design& design_;
     Model model_;
-    std::size_t most_;
-    estimation::GivenMembers given_;
+    std::shared_ptr<HeldMembers> held_;
     std::vector<Eigen::Index> first_;
-    /// What the whole model takes and leaves of a group.
-    struct Seen {
-        Eigen::MatrixXd taken;
-        estimation::GroupInformation left;
-    };
-    std::map<std::size_t, Seen> seen_;  ///< of groups that were offered
+    std::optional<Beside> last_;  ///< changed last
 };
 
 }  // namespace trunnion::diagnosis

@@ -8,6 +8,7 @@
 #include "diagnosis/candidate_groups.h"
 #include "diagnosis/changes.h"
 #include "diagnosis/machine_jump.h"
+#include "diagnosis/rests.h"
 #include "diagnosis/ripples.h"
 #include "diagnosis/solution.h"
 #include "effects/settings.h"
@@ -44,12 +45,6 @@ Design empty_design(const Prepared& p, const Whitener& whitener, const std::vect
     }
     const auto rows = static_cast<double>(std::count(used.begin(), used.end(), true) + extra);
     return {std::move(known), std::move(data), rows};
-}
-
-/// What a model leaves of the readings, and what may hide in it.
-KeySearch::Remainder left_by(const Prepared& p, KeySearch& keys, Design& design,
-                             const Model& model) {
-    return keys.remainder(rest_of(p, design, model), fitted_mm(p, design, model));
 }
 
 struct KeyedEffect {
@@ -147,8 +142,8 @@ Model with_refined_keys(Design& design, const SearchSetting& setting, const Prep
 }
 
 /// Adds ripples of an axis in place of its free-form positioning error, which may imitate them.
-void add_ripples_instead(Design& design, const Prepared& p, const Whitener& whitener,
-                         KeySearch& keys, const Model& model) {
+void add_ripples_instead(Design& design, const Prepared& p, const Whitener& whitener, Rests& rests,
+                         const Model& model) {
     for (std::size_t k = 0; k < model.members.size(); ++k) {
         const ColumnGroup& group = design.group(model.members[k]);
         if (group.kind != GroupKind::table ||
@@ -157,26 +152,25 @@ void add_ripples_instead(Design& design, const Prepared& p, const Whitener& whit
         const effects::Effect* ripple =
             effects::find_effect(p.catalogue, effects::EffectKind::cyclic, group.table.axis.axis);
         if (!ripple || modelled(p, *ripple)) continue;
-        const Model rest = without(model, k);
+        const Rests::Rest rest = rests.of(without(model, k));
         std::vector<KeyedEffect> list;
-        for (auto& setting : keys.best(*ripple, left_by(p, keys, design, rest), first_keys))
+        for (auto& setting : rests.keys().best(*ripple, rest.remainder, first_keys))
             list.push_back({ripple, std::move(setting)});
-        add_keyed(design, p, whitener, list, rest_of(p, design, rest));
+        add_keyed(design, p, whitener, list, rest.mm);
     }
 }
 
 /// Adds keyed effects in place of a driver, which needs no keys: with rough ones they would lose.
-void add_keyed_instead(Design& design, const Prepared& p, const Whitener& whitener, KeySearch& keys,
+void add_keyed_instead(Design& design, const Prepared& p, const Whitener& whitener, Rests& rests,
                        const Model& model) {
     for (std::size_t k = 0; k < model.members.size(); ++k) {
         if (design.group(model.members[k]).kind != GroupKind::driver) continue;
-        const Model rest = without(model, k);
-        const Eigen::VectorXd rest_mm = rest_of(p, design, rest);
-        auto list = promising(p, keys, left_by(p, keys, design, rest), 1);
+        const Rests::Rest rest = rests.of(without(model, k));
+        auto list = promising(p, rests.keys(), rest.remainder, 1);
         for (KeyedEffect& keyed : list)
             keyed.keys = identification::refine_keys(p.replay, p.base, *keyed.effect,
-                                                     std::move(keyed.keys), rest_mm);
-        add_keyed(design, p, whitener, list, rest_mm);
+                                                     std::move(keyed.keys), rest.mm);
+        add_keyed(design, p, whitener, list, rest.mm);
     }
 }
 
@@ -254,28 +248,28 @@ Searched search_of(const Prepared& p, const Round& round, KeySearch& keys, const
     setting.refine = [&](const Model& m, std::size_t position) {
         return refined_group(design, p, whitener, m, position);
     };
+    Rests rests(p, design, keys);
     Model model;
     if (earlier) {
         model = tuned(design, setting, carried_over(*earlier, design, p, whitener), 2);
     } else {
-        const auto left = left_by(p, keys, design, empty_model(design, setting));
-        add_keyed(design, p, whitener, promising(p, keys, left, first_keys),
-                  rest_of(p, design, empty_model(design, setting)));
+        const Rests::Rest rest = rests.of(empty_model(design, setting));
+        add_keyed(design, p, whitener, promising(p, keys, rest.remainder, first_keys), rest.mm);
         model = searched(design, setting);
     }
     for (int pass = 0; pass < 2 && !setting.stopped(); ++pass) {
         const double before = model.score;
         model = with_refined_keys(design, setting, p, whitener, std::move(model));
-        add_keyed(design, p, whitener, promising(p, keys, left_by(p, keys, design, model), 1),
-                  rest_of(p, design, model));
-        add_ripples_instead(design, p, whitener, keys, model);
-        add_keyed_instead(design, p, whitener, keys, model);
+        const Rests::Rest rest = rests.of(model);
+        add_keyed(design, p, whitener, promising(p, keys, rest.remainder, 1), rest.mm);
+        add_ripples_instead(design, p, whitener, rests, model);
+        add_keyed_instead(design, p, whitener, rests, model);
         model = settled(design, setting, grown(design, setting, std::move(model)));
         if (model.score < before + 1.0) break;
     }
     FoldColumns rows(design, {p.folds, round.used});
     model = without_idle_members(rows, setting, std::move(model));
-    add_jumps_instead(design, p, whitener, keys, model);
+    add_jumps_instead(design, p, whitener, rests, model);
     add_unnamed_forms(design, p, whitener);
     take_line_for_positioning(design, p);
     add_spoiled_visits(design, p, round.used);

@@ -281,11 +281,13 @@ Model with(Model model, const Offer& offer) {
 }
 
 std::vector<Offer> worth_of_members(Design& design, const Model& model) {
-    const auto each =
-        estimation::each_beside_others(design.equations(model.members), model.variances);
+    const auto held = design.held(model.members, estimation::not_absent(model.variances));
+    if (held->each.empty())
+        held->each =
+            estimation::each_beside_others(held->equations, held->variances.tau, held->given);
     std::vector<Offer> worth;
     for (std::size_t k = 0; k < model.members.size(); ++k)
-        worth.push_back(offer_of(design, model.members[k], each[k]));
+        worth.push_back(offer_of(design, model.members[k], held->each[k]));
     return worth;
 }
 

@@ -137,18 +137,6 @@ Solution without_changes(const Design& design, const Model& model, Solution solu
     return solution;
 }
 
-Eigen::MatrixXd fitted_mm(const Prepared& prepared, const Design& design, const Model& model) {
-    Eigen::MatrixXd all = prepared.base.columns;
-    for (const std::size_t m : model.members) {
-        if (!is_cause(design.group(m).kind)) continue;
-        const Eigen::MatrixXd own =
-            columns_on(prepared.replay, prepared.base.gradient, design.group(m));
-        all.conservativeResize(Eigen::NoChange, all.cols() + own.cols());
-        all.rightCols(own.cols()) = own;
-    }
-    return all;
-}
-
 Eigen::VectorXd left_mm(const Prepared& prepared, const Design& design, const Model& model,
                         const Solution& solution) {
     Eigen::VectorXd left =

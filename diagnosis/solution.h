@@ -24,8 +24,6 @@ Solution without_changes(const Design& design, const Model& model, Solution solu
 /// Readings minus set-up and causes, mm; zeros of tests and drivers are not subtracted.
 Eigen::VectorXd left_mm(const Prepared& prepared, const Design& design, const Model& model,
                         const Solution& solution);
-/// Columns (mm) of the set-up and of the causes among the members.
-Eigen::MatrixXd fitted_mm(const Prepared& prepared, const Design& design, const Model& model);
 
 /// Parameter values of an effect in their units; keys are unchanged.
 std::vector<double> values_in(const ColumnGroup& group, const Eigen::VectorXd& coefficients);

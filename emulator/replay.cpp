@@ -1,7 +1,9 @@
 #include "emulator/replay.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <deque>
 #include <map>
 #include <tuple>
@@ -208,13 +210,29 @@ kinematics::Perturbation Replay::gradient(std::size_t i, const kinematics::Forwa
     return result;
 }
 
+namespace {
+
+/// True where every entry is +0.
+bool is_still(const SmallMotion& motion) {
+    using Pair [[gnu::vector_size(2 * sizeof(std::uint64_t))]] = std::uint64_t;
+    Pair parts[3];
+    static_assert(sizeof parts == sizeof motion);
+    std::memcpy(parts, &motion, sizeof parts);
+    const Pair any = parts[0] | parts[1] | parts[2];
+    return (any[0] | any[1]) == 0;
+}
+
+}  // namespace
+
 double dot(const kinematics::Perturbation& gradient, const kinematics::Perturbation& delta) {
-    // Component by component: independent sums that vectorise.
+    // Component by component: independent sums that vectorise. Most effects move one axis: what
+    // stands still adds nothing, and its derivatives need not come from memory.
     Vector3 sum = gradient.tip_shift_mm.cwiseProduct(delta.tip_shift_mm);
     Vector3 tilts = gradient.work_shift_mm.cwiseProduct(delta.work_shift_mm);
     double axes = gradient.reading_mm * delta.reading_mm;
     for (std::size_t k = 0; k < axis_count; ++k) {
-        axes += gradient.axis.value[k] * delta.axis.value[k];
+        if (delta.axis.value[k] != 0.0) axes += gradient.axis.value[k] * delta.axis.value[k];
+        if (is_still(delta.motion[k])) continue;
         sum += gradient.motion[k].shift_mm.cwiseProduct(delta.motion[k].shift_mm);
         tilts += gradient.motion[k].tilt_rad.cwiseProduct(delta.motion[k].tilt_rad);
     }

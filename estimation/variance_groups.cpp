@@ -74,12 +74,15 @@ Eigen::VectorXd by_column(const GroupEquations& equations, const Variances& vari
     return tau;
 }
 
-/// I + D G D / nu^2, padded by a unit matrix.
+/// Lower triangle of I + D G D / nu^2, padded by a unit matrix.
 Eigen::MatrixXd scaled_gram(const GroupEquations& equations, const Eigen::VectorXd& tau,
                             double nu) {
     const Eigen::Index own = tau.size(), rows = padded_rows(own);
     Eigen::MatrixXd m = Eigen::MatrixXd::Zero(rows, rows);
-    m.topLeftCorner(own, own) = tau.asDiagonal() * equations.gram * tau.asDiagonal() / (nu * nu);
+    for (Eigen::Index j = 0; j < own; ++j)
+        m.col(j).segment(j, own - j) =
+            tau.tail(own - j).cwiseProduct(equations.gram.col(j).tail(own - j)) * tau(j) /
+            (nu * nu);
     m.diagonal().array() += 1.0;
     return m;
 }
@@ -140,33 +143,11 @@ Step with_best_noise(const GroupEquations& equations, Variances variances,
     return {equations, std::move(variances), std::move(members), prior};
 }
 
-std::vector<GroupInformation> each_beside(const GroupEquations& equations,
-                                          const std::vector<double>& tau, const GivenMembers& all) {
-    std::vector<GroupInformation> list;
-    const Eigen::VectorXd mean = all.mean();
-    for (std::size_t g = 0; g < equations.groups(); ++g) {
-        const Eigen::Index first = equations.first(g), count = equations.size[g];
-        // R is lower triangular: the rows above the group's first row are zero in its columns.
-        const auto own = all.half().block(first, first, all.half().rows() - first, count);
-        const Eigen::LLT<Eigen::MatrixXd> covariance(inner_products(own));
-        GroupInformation alone;
-        alone.information = covariance.solve(Eigen::MatrixXd::Identity(count, count));
-        alone.product = covariance.solve(mean.segment(first, count));
-        alone.information.diagonal().array() -= 1.0 / (tau[g] * tau[g]);
-        list.push_back(std::move(alone));
-    }
-    return list;
-}
-
-Variances not_absent(Variances variances) {
-    for (double& tau : variances.tau) tau = std::max(tau, least_size);
-    return variances;
-}
-
 /// Each group at its best size beside the others, then the noise.
 Step one_sweep(const GroupEquations& equations, const Step& from, const NoisePrior& prior) {
     Variances next = from.variances;
-    const auto groups = each_beside(equations, from.variances.tau, GivenMembers(from.members));
+    const auto groups =
+        each_beside_others(equations, from.variances.tau, GivenMembers(from.members));
     for (std::size_t g = 0; g < groups.size(); ++g) next.tau[g] = group_gain(groups[g]).tau;
     return with_best_noise(equations, std::move(next), prior);
 }
@@ -179,6 +160,11 @@ Variances between(const Variances& a, Variances b) {
 }
 
 }  // namespace
+
+Variances not_absent(Variances variances) {
+    for (double& tau : variances.tau) tau = std::max(tau, least_size);
+    return variances;
+}
 
 Eigen::Index GroupEquations::first(std::size_t group) const {
     return std::accumulate(size.begin(), size.begin() + static_cast<long>(group), Eigen::Index{0});
@@ -204,6 +190,7 @@ GivenMembers::GivenMembers(FactoredMembers factored) : nu_(factored.nu), z_(std:
     if (tau.size() == 0) return;
     half_ = inverse_of_lower(factored.factor).topLeftCorner(tau.size(), tau.size());
     for (Eigen::Index k = 0; k < tau.size(); ++k) half_.col(k) *= tau(k);
+    mean_ = half_.triangularView<Eigen::Lower>().transpose() * z_ / (nu_ * nu_);
 }
 
 Eigen::MatrixXd GivenMembers::taken(const Eigen::MatrixXd& cross) const {
@@ -226,11 +213,6 @@ GroupInformation GivenMembers::leave_beside(const Eigen::Ref<const Eigen::Matrix
 GroupInformation GivenMembers::leave(const Eigen::MatrixXd& cross, const Eigen::MatrixXd& gram,
                                      const Eigen::VectorXd& product) const {
     return leave_beside(taken(cross), gram, product);
-}
-
-Eigen::VectorXd GivenMembers::mean() const {
-    if (half_.size() == 0) return {};
-    return half_.triangularView<Eigen::Lower>().transpose() * z_ / (nu_ * nu_);
 }
 
 Eigen::MatrixXd GivenMembers::covariance() const {
@@ -306,28 +288,73 @@ GroupGain group_gain(const GroupInformation& group) {
     return group_gain(ReducedGroup(group.information), group.product, 1.0);
 }
 
-GroupGain group_gain(const ReducedGroup& group, const Eigen::VectorXd& product, double factor) {
-    // From one size before the first to more than one after the last.
+namespace {
+
+/// Gains at the sizes of the grid, from one before the first to some after the last, and the
+/// position of the best one of the grid.
+struct GridGains {
+    std::array<double, 32> gain{};
+    std::size_t best = 0;
+    double mean() const;  ///< log of the mean likelihood ratio
+};
+
+GridGains gains_on_grid(const Chain& chain) {
     static const std::array<ReducedGroup::Eight, 4> grid{eight_sizes(-1, 1), eight_sizes(7, 1),
                                                          eight_sizes(15, 1), eight_sizes(23, 1)};
-    const Chain chain{group, group.turned(product), factor};
-    std::array<double, 8 * grid.size()> gain{};
+    GridGains on_grid;
     for (std::size_t k = 0; k < grid.size(); ++k) {
         const ReducedGroup::Eight eight = chain.gains(grid[k]);
-        std::copy(eight.begin(), eight.end(), gain.begin() + 8 * k);
+        std::copy(eight.begin(), eight.end(), on_grid.gain.begin() + 8 * k);
     }
-    const auto first = gain.begin() + 1, last = first + sizes, best = std::max_element(first, last);
+    const auto first = on_grid.gain.begin() + 1;
+    on_grid.best =
+        static_cast<std::size_t>(std::max_element(first, first + sizes) - on_grid.gain.begin());
+    return on_grid;
+}
+
+double GridGains::mean() const {
     double sum = 0.0;
-    for (auto g = first; g != last; ++g) sum += std::exp(*g - *best);
-    const Peak on_grid{static_cast<double>(best - first), *best};
-    const Peak peak = refined(chain, on_grid, *std::prev(best), *std::next(best));
-    return {*best + std::log(sum / sizes), peak.gain, size_at(peak.step)};
+    for (std::size_t k = 1; k <= sizes; ++k) sum += std::exp(gain[k] - gain[best]);
+    return gain[best] + std::log(sum / sizes);
+}
+
+}  // namespace
+
+double mean_gain(const ReducedGroup& group, const Eigen::VectorXd& product, double factor) {
+    return gains_on_grid({group, group.turned(product), factor}).mean();
+}
+
+GroupGain group_gain(const ReducedGroup& group, const Eigen::VectorXd& product, double factor) {
+    const Chain chain{group, group.turned(product), factor};
+    const GridGains all = gains_on_grid(chain);
+    const Peak on_grid{static_cast<double>(all.best) - 1.0, all.gain[all.best]};
+    const Peak peak = refined(chain, on_grid, all.gain[all.best - 1], all.gain[all.best + 1]);
+    return {all.mean(), peak.gain, size_at(peak.step)};
+}
+
+std::vector<GroupInformation> each_beside_others(const GroupEquations& equations,
+                                                 const std::vector<double>& tau,
+                                                 const GivenMembers& all) {
+    std::vector<GroupInformation> list;
+    const Eigen::VectorXd& mean = all.mean();
+    for (std::size_t g = 0; g < equations.groups(); ++g) {
+        const Eigen::Index first = equations.first(g), count = equations.size[g];
+        // R is lower triangular: the rows above the group's first row are zero in its columns.
+        const auto own = all.half().block(first, first, all.half().rows() - first, count);
+        const Eigen::LLT<Eigen::MatrixXd> covariance(inner_products(own));
+        GroupInformation alone;
+        alone.information = covariance.solve(Eigen::MatrixXd::Identity(count, count));
+        alone.product = covariance.solve(mean.segment(first, count));
+        alone.information.diagonal().array() -= 1.0 / (tau[g] * tau[g]);
+        list.push_back(std::move(alone));
+    }
+    return list;
 }
 
 std::vector<GroupInformation> each_beside_others(const GroupEquations& equations,
                                                  const Variances& variances) {
     const Variances given = not_absent(variances);
-    return each_beside(equations, given.tau, GivenMembers(equations, given));
+    return each_beside_others(equations, given.tau, GivenMembers(equations, given));
 }
 
 BestVariances maximise_likelihood(const GroupEquations& equations, Variances start,

@@ -43,7 +43,10 @@ struct NoisePrior {
 struct Variances {
     std::vector<double> tau;  ///< of each group
     double nu = 1.0;
+    bool operator==(const Variances&) const = default;
 };
+/// The same with sizes that are not too small for the inverse of a covariance.
+Variances not_absent(Variances variances);
 
 double restricted_likelihood(const GroupEquations& equations, const Variances& variances,
                              const NoisePrior& prior);
@@ -83,7 +86,7 @@ class GivenMembers {
     GroupInformation leave_beside(const Eigen::Ref<const Eigen::MatrixXd>& taken,
                                   const Eigen::MatrixXd& gram,
                                   const Eigen::VectorXd& product) const;
-    Eigen::VectorXd mean() const;                          ///< of b, m entries
+    const Eigen::VectorXd& mean() const { return mean_; }  ///< of b, m entries
     Eigen::MatrixXd covariance() const;                    ///< of b: D (L L')^-1 D
     const Eigen::MatrixXd& half() const { return half_; }  ///< R = L^-1 D: R'R = covariance
     double nu() const { return nu_; }
@@ -91,7 +94,7 @@ class GivenMembers {
   private:
     double nu_;
     Eigen::MatrixXd half_;
-    Eigen::VectorXd z_;
+    Eigen::VectorXd z_, mean_;
 };
 
 /// The information of a group after Householder reduction: tridiagonal in its own basis, so that
@@ -123,11 +126,17 @@ GroupGain group_gain(const GroupInformation& group);
 /// The same for `factor` times a reduced information. Members reduce the information and thereby
 /// increase the true gain, so the full information gives a lower bound.
 GroupGain group_gain(const ReducedGroup& group, const Eigen::VectorXd& product, double factor);
+/// Of this gain the mean alone.
+double mean_gain(const ReducedGroup& group, const Eigen::VectorXd& product, double factor);
 
 /// Each group beside all the others at their variances, from one factorisation: with P the block of
 /// the covariance that belongs to group g, its information alone is P^-1 - I / tau_g^2.
 std::vector<GroupInformation> each_beside_others(const GroupEquations& equations,
                                                  const Variances& variances);
+/// The same with the factorisation of members that are not absent.
+std::vector<GroupInformation> each_beside_others(const GroupEquations& equations,
+                                                 const std::vector<double>& tau,
+                                                 const GivenMembers& all);
 
 struct BestVariances {
     Variances variances;

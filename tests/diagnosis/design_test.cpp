@@ -121,4 +121,21 @@ TEST_CASE("models that share columns of the folds are left out as each alone", "
     }
 }
 
+TEST_CASE("members that are asked again are not factored again", "[diagnosis]") {
+    Bench b;
+    const estimation::Variances sizes{{1.0, 0.5}, 1.1};
+    const std::vector<std::size_t> members{b.groups[0], b.groups[2]};
+    const auto first = b.design.held(members, sizes);
+    CHECK(b.design.held(members, sizes) == first);
+    const Eigen::VectorXd mean = first->given.mean();
+    for (const double tau : {0.1, 0.2, 0.3, 0.4}) {
+        const auto other = b.design.held(members, {{tau, 0.5}, 1.1});
+        CHECK(other != first);
+        CHECK((other->given.mean() - mean).norm() > 1e-6);
+    }
+    const auto again = b.design.held(members, sizes);
+    CHECK(again != first);
+    CHECK((again->given.mean() - mean).norm() == 0.0);
+}
+
 }  // namespace trunnion
