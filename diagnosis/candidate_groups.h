@@ -1,5 +1,5 @@
 // All groups of columns that may explain the gap, one file for each kind: textbook_groups.cpp,
-// table_groups.cpp, offset_groups.cpp, driver_groups.cpp, wandering_groups.cpp.
+// table_groups.cpp, offset_groups.cpp, driver_groups.cpp, wandering_groups.cpp, one_line.cpp.
 #pragma once
 
 #include <functional>

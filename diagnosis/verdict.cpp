@@ -319,15 +319,23 @@ Model without_idle_members(FoldColumns& rows, const SearchSetting& setting, Mode
     return model;
 }
 
+namespace {
+
+bool tells_where(const ColumnGroup& group) {
+    return group.kind == GroupKind::offset || group.kind == GroupKind::driver;
+}
+
+}  // namespace
+
 std::vector<DriverShare> where_of(const Design& design, double floor) {
     std::vector<DriverShare> where;
     const Eigen::VectorXd y = design.projection().beside(design.data());
     const double whole = y.squaredNorm(), freedom = design.freedom();
     double tried = 0.0;
-    for (const auto& entry : design.groups()) tried += is_cause(entry.group.kind) ? 0.0 : 1.0;
+    for (const auto& entry : design.groups()) tried += tells_where(entry.group) ? 1.0 : 0.0;
     for (const auto& entry : design.groups()) {
         const ColumnGroup& group = entry.group;
-        if (is_cause(group.kind) || group.is_anything) continue;
+        if (!tells_where(group) || group.is_anything) continue;
         const auto own = static_cast<std::ptrdiff_t>(group.columns());
         const estimation::GroupInformation all =
             design.of({group.features.end() - own, group.features.end()});

@@ -46,7 +46,8 @@ class Approach {
   private:
     /// Of the tool relative to the work, in M.
     Vector3 gauge(const AxisPositions& q) const {
-        return kinematics::tool_senses(observer_.setup().machine.chain).cwiseProduct(move_.parallel.linear(q));
+        return kinematics::tool_senses(observer_.setup().machine.chain)
+            .cwiseProduct(move_.parallel.linear(q));
     }
     DeviceRow ready() const { return device_row(observer_, row_, log_.sample_of(row_)); }
 

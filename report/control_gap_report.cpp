@@ -120,12 +120,17 @@ std::string verdict_sentence(const choices::ControlGap& gap) {
     if (gap.verdict == GapVerdict::unexplained)
         return size + "; no choice and no store of this control explains it.";
     std::vector<std::string> names;
-    for (const choices::GapCause& cause : gap.causes)
+    bool stays = false;
+    for (const choices::GapCause& cause : gap.causes) {
+        stays = stays || !cause.known;
         if (cause.known && choices::is_claimed(cause)) names.push_back(cause.name);
+    }
+    const bool one = names.size() <= 1;
+    // Equal stores may all be below one half.
+    if (names.empty()) names.emplace_back("One of several choices or stores");
     return fmt::format("{}. {} explain{} {} % of it on blocks left out{}.", size,
-                       fmt::join(names, " and "), names.size() == 1 ? "s" : "",
-                       percent(gap.explained),
-                       names.size() < gap.causes.size() ? "; what stays is more than noise" : "");
+                       fmt::join(names, " and "), one ? "s" : "", percent(gap.explained),
+                       stays ? "; what stays is more than noise" : "");
 }
 
 std::string control_gap_json(const choices::ControlGap& gap, const std::vector<FileRead>& inputs) {

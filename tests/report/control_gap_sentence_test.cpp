@@ -11,6 +11,7 @@ TEST_CASE("what no cause explains is not told as a cause", "[report]") {
     gap.explained = 0.99;
     gap.causes.resize(2);
     gap.causes[0].name = "G54";
+    gap.causes[0].probability = 0.9;
     gap.causes[1].name = "unknown";
     gap.causes[1].known = false;
     const std::string partly = report::verdict_sentence(gap);
@@ -20,6 +21,11 @@ TEST_CASE("what no cause explains is not told as a cause", "[report]") {
     gap.causes.pop_back();
     gap.verdict = choices::GapVerdict::explained;
     CHECK_THAT(report::verdict_sentence(gap), !Catch::Contains("more than noise"));
+    gap.causes[0].probability = 0.33;  // as likely as two other stores
+    gap.verdict = choices::GapVerdict::ambiguous;
+    CHECK_THAT(report::verdict_sentence(gap),
+               Catch::Contains("One of several choices or stores explains 99 % of it") &&
+                   !Catch::Contains("G54"));
 }
 
 }  // namespace trunnion
