@@ -123,7 +123,8 @@ std::string verdict_sentence(const choices::ControlGap& gap) {
     bool stays = false;
     for (const choices::GapCause& cause : gap.causes) {
         stays = stays || !cause.known;
-        if (cause.known && choices::is_claimed(cause)) names.push_back(cause.name);
+        if (cause.known && choices::is_claimed(cause))
+            names.push_back(cause.name + (cause.rivals.empty() ? "" : " (or a rival)"));
     }
     const bool one = names.size() <= 1;
     // Equal stores may all be below one half.

@@ -21,8 +21,12 @@ TEST_CASE("what no cause explains is not told as a cause", "[report]") {
     gap.causes.pop_back();
     gap.verdict = choices::GapVerdict::explained;
     CHECK_THAT(report::verdict_sentence(gap), !Catch::Contains("more than noise"));
-    gap.causes[0].probability = 0.33;  // as likely as two other stores
     gap.verdict = choices::GapVerdict::ambiguous;
+    gap.causes[0].probability = 0.33;
+    gap.causes[0].rivals = {"H1", "external"};
+    CHECK_THAT(report::verdict_sentence(gap),
+               Catch::Contains("G54 (or a rival) explains 99 % of it"));
+    gap.causes[0].rivals.clear();
     CHECK_THAT(report::verdict_sentence(gap),
                Catch::Contains("One of several choices or stores explains 99 % of it") &&
                    !Catch::Contains("G54"));
