@@ -350,6 +350,20 @@ TEST_CASE("41 errors and backlash of every axis at once") {
     }
 }
 
+TEST_CASE("an axis that moves the tool the other way is refused, as a mirror of the part") {
+    for (const char* direction : {"[machine.axis.Z]\ndirection = [0, 0, -1]\n",
+                                  "[machine.axis.Y]\ndirection = [0, 1, 0]\n"}) {
+        INFO(direction);
+        std::vector<std::string> notes;
+        const setup::Setup mirrored =
+            setup::parse_setup(std::string("[machine]\nchain = \"w Y b X Z t\"\n") + direction +
+                                   "[machine.errors]\nEC0Y_rad = 1e-4\n",
+                               "mirror.toml", notes);
+        CHECK_THROWS_WITH(compensate(mirrored, "O1\nG21 G90 G54\nG1 F500. X10. Y5. Z-5.\nM30\n"),
+                          Catch::Contains("against + of M"));
+    }
+}
+
 TEST_CASE("a machine with an extra axis W lands where it meant") {
     std::vector<std::string> notes;
     setup::Setup setup = setup::parse_setup(

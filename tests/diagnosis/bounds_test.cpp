@@ -101,6 +101,22 @@ TEST_CASE("a period is found at the ends of the search and none is made up beyon
     CHECK(!claims(longer, "X.cyclic"));
 }
 
+TEST_CASE("targets at whole degrees with gaps see no ripple of 356 periods in a turn for one of 4",
+          "[diagnosis]") {
+    std::vector<double> sparse{0.0};
+    for (const double step_deg : {6.0, 5.0, 5.0, 4.0, 6.0, 5.0, 4.0, 5.0, 6.0, 6.0, 5.0, 4.0,
+                                  5.0, 6.0, 4.0, 5.0, 5.0, 6.0, 4.0, 6.0, 5.0, 5.0, 4.0, 6.0})
+        sparse.push_back(sparse.back() + rad_from_deg(step_deg));
+    CHECK_FALSE(diagnosis::shows_period(sparse, 2.0 * pi / 356.0));
+    CHECK_FALSE(diagnosis::shows_period(sparse, 2.0 * pi / 200.0));
+    CHECK(diagnosis::shows_period(sparse, 2.0 * pi / 160.0));
+    CHECK(diagnosis::shows_period(sparse, 2.0 * pi / 10.0));
+    // At no common step, short periods are seen.
+    for (std::size_t k = 0; k < sparse.size(); ++k)
+        sparse[k] += rad_from_deg(0.3 * std::sin(1.7 * static_cast<double>(k * k)));
+    CHECK(diagnosis::shows_period(sparse, 2.0 * pi / 356.0));
+}
+
 TEST_CASE("a period needs 8 places, two turns and no hole, of any kind of axis",
           "[diagnosis][bounds]") {
     const auto places = [](int count, double step) {

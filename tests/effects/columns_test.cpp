@@ -264,4 +264,28 @@ TEST_CASE("a structure that drifts moves the spindle side in M, however the head
     }
 }
 
+TEST_CASE("a touch goes along its direction in M, whichever way the axes count", "[effects]") {
+    // From 25 mm above the centre of the sphere downwards, and from below upwards.
+    for (const char* z : {"0, 0, 1", "0, 0, -1"}) {
+        INFO(z);
+        const double sense = std::string(z) == "0, 0, 1" ? 1.0 : -1.0;
+        std::vector<std::string> notes;
+        const setup::Setup setup = setup::parse_setup(
+            std::string("[machine]\nchain = \"w b X Y Z t\"\n[machine.axis.Z]\ndirection = [") + z +
+                "]\n[probe]\ntip_mm = [0, 0, -150]\nball_diameter_mm = 6\n[[artefact]]\n"
+                "name = \"S1\"\ncenter_mm = [0, 0, -150]\ndiameter_mm = 30\n",
+            "z.toml", notes);
+        // The ball touches 18 mm from the centre.
+        const records::ReadingTable table = records::parse_readings(
+            fmt::format(
+                "index,time_s,test,device,feature,x_mm,y_mm,z_mm,dir_x,dir_y,dir_z,value_mm\n"
+                "0,1,T,touch,S1,0,0,{},0,0,-1,\n1,2,T,touch,S1,0,0,{},0,0,1,\n",
+                25.0 * sense, -19.5 * sense),
+            "r.csv", notes, setup.machine.chain.names());
+        const std::vector<double> read = emulator::Replay(setup, table).predict({});
+        CHECK(read[0] == Approx(25.0 - 18.0).margin(1e-9));
+        CHECK(read[1] == Approx(19.5 - 18.0).margin(1e-9));
+    }
+}
+
 }  // namespace trunnion
