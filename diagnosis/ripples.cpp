@@ -17,6 +17,9 @@ constexpr double least_other = 0.01;
 /// On a grid of fewer positions a ripple whose period is not unique is never claimed: it has half
 /// as many frequencies as positions, and one of them resembles an error of any shape.
 constexpr std::size_t many_places = 3 * least_places;
+/// Of the period that was found: a ripple so much finer that has the same values at all places is
+/// improbable, because the prior falls with the number of periods in a turn.
+constexpr double far_finer = 1.0 / 8.0;
 constexpr double same_frequency = 1e-3;  ///< cycles in one step of a grid
 /// Keys with the same values that are listed. A step of 20 m reaches it; a wild coordinate of
 /// 1e9 mm would have some 1e9 of them.
@@ -175,6 +178,17 @@ bool separable(const Design& design, std::size_t group, const std::vector<Eigen:
     return part >= least_outside || part * design.groups()[group].gram.trace() >= rules::rival_loss;
 }
 
+/// Other keys of a ripple with the same values at all positions.
+std::vector<double> other_periods(const Prepared& prepared, const Ripple& ripple,
+                                  const std::vector<double>& keys) {
+    const double step = step_of(distinct(positions_of(prepared, ripple.axis)));
+    if (step == 0.0) return {};
+    std::vector<double> list = aliases_on(step, ripple);
+    const double own = keys[ripple.key];
+    std::erase_if(list, [&](double key) { return std::abs(key - own) < 1e-2 * own; });
+    return list;
+}
+
 }  // namespace
 
 bool shows_period(std::vector<double> places, double period) {
@@ -191,11 +205,9 @@ std::vector<double> equal_periods(const Prepared& prepared, const effects::Effec
                                   const std::vector<double>& keys) {
     const auto ripple = ripple_of(effect, keys);
     if (!ripple) return {};
-    const double step = step_of(distinct(positions_of(prepared, ripple->axis)));
-    if (step == 0.0) return {};
-    std::vector<double> list = aliases_on(step, *ripple);
-    const double own = keys[ripple->key];
-    std::erase_if(list, [&](double key) { return std::abs(key - own) < 1e-2 * own; });
+    std::vector<double> list = other_periods(prepared, *ripple, keys);
+    std::erase_if(list,
+                  [&](double key) { return ripple->period_of(key) < far_finer * ripple->period; });
     return list;
 }
 
@@ -240,11 +252,12 @@ std::optional<std::size_t> add_ripple_or_other(Design& design, const Prepared& p
                                                const Whitener& whitener,
                                                const effects::Effect& effect,
                                                std::vector<double> keys) {
-    const auto ripple = ripple_of(effect, keys);
+    auto ripple = ripple_of(effect, keys);
     if (ripple) {
         const std::vector<double> places = distinct(positions_of(prepared, ripple->axis));
         take_longest_period(places, *ripple, keys);
-        const bool unique = equal_periods(prepared, effect, keys).empty();
+        ripple->period = ripple->period_of(keys[ripple->key]);
+        const bool unique = other_periods(prepared, *ripple, keys).empty();
         if (!shows_period(places, ripple->period_of(keys[ripple->key])) ||
             (!unique && places.size() < many_places))
             return std::nullopt;

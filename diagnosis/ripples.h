@@ -14,7 +14,8 @@ namespace trunnion::diagnosis {
 bool shows_period(std::vector<double> places, double period);
 
 /// Other keys of the catalogue that a ripple may have: at the positions of its axis, which stand on
-/// a grid, their values are the same (aliases). Empty for any other effect.
+/// a grid, their values are the same (aliases). Not those of an eighth of its period or less, which
+/// are improbable. Empty for any other effect.
 std::vector<double> equal_periods(const Prepared& prepared, const effects::Effect& effect,
                                   const std::vector<double>& keys);
 
