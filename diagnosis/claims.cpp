@@ -339,8 +339,8 @@ std::vector<Claim> claims_of(const Searching& search, const Model& model, const 
         if (heldout.found.ended) claim.probability = std::min(claim.probability, unchallenged_most);
         claims.push_back(std::move(claim));
     }
-    if (sum_of_causes(design, model, sizes) >
-        rules::most_own)  // contributions cancel, so none of them is reliable
+    // Contributions that cancel are not reliable.
+    if (sum_of_causes(design, model, sizes) > rules::most_own)
         for (Claim& claim : claims) claim.probability = std::min(claim.probability, doubtful);
     // What is rather not there stands behind what is claimed.
     std::stable_sort(claims.begin(), claims.end(), [](const Claim& a, const Claim& b) {
