@@ -44,6 +44,7 @@ struct ColumnGroup {
     std::string name;                         ///< the cause or driver: "X.backlash", "time"
     std::string component, text;              ///< of a driver
     bool of_time = false;                     ///< a driver: a course of time
+    bool is_whole = false;                    ///< a driver with what effects do as well
     bool is_anything = false;                 ///< a driver that follows nearly everything, too:
                                               ///< by itself it does not tell where
     bool machine_jump = false;                ///< of diagnosis/machine_jump.h

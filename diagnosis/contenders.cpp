@@ -284,8 +284,9 @@ struct Successor {
     Standing chosen;
 };
 
-/// The contender as the model, if it is the better one also without its idle members. With more
-/// members than a search may take it is a sum that imitates what is not there.
+/// The contender as the model, if it is the better one also without its idle members, and left-out
+/// readings do not lose as much by it as the evidence gains. With more members than a search may
+/// take it is a sum that imitates what is not there.
 std::optional<Successor> successor(const Searching& search, const Standing& chosen,
                                    FoldColumns& rows, const Contender& contender) {
     const std::size_t most = std::max(search.setting.most_members, chosen.model.members.size());
@@ -293,8 +294,8 @@ std::optional<Successor> successor(const Searching& search, const Standing& chos
     // A jump is no cause: no setup can contain it.
     const bool jumps = std::any_of(members.begin(), members.end(),
                                    [&](std::size_t m) { return is_jump(search.design, m); });
-    if (contender.ahead < better || contender.predicted >= contender.spread ||
-        members.size() > most || jumps)
+    const double lost = contender.predicted < contender.spread ? 0.0 : contender.predicted;
+    if (contender.ahead < std::max(better, lost) || members.size() > most || jumps)
         return std::nullopt;
     Model model =
         exchanged(search, rows, without_idle_members(rows, search.setting, contender.model));

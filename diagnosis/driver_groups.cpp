@@ -9,6 +9,7 @@
 #include "base/units.h"
 #include "diagnosis/candidate_groups.h"
 #include "diagnosis/rules.h"
+#include "diagnosis/whole_drivers.h"
 
 namespace trunnion::diagnosis {
 namespace {
@@ -358,6 +359,7 @@ void add_driver_groups(Design& design, const Prepared& prepared, const Whitener&
         const Eigen::Index first = design.add_features(columns);
         for (Eigen::Index k = 0; k < columns.cols(); ++k) group.features.push_back(first + k);
         group.log_prior = prior;
+        if (!driver.only_where) add_whole(design, group);
         const std::size_t added = design.add_beside(std::move(group), owned);
         if (driver.only_where) design.hide(added);
     }

@@ -11,6 +11,7 @@
 #include "diagnosis/rests.h"
 #include "diagnosis/ripples.h"
 #include "diagnosis/solution.h"
+#include "diagnosis/whole_drivers.h"
 #include "effects/settings.h"
 #include "estimation/quantiles.h"
 #include "identification/identify.h"
@@ -185,6 +186,7 @@ Model carried_over(const Searched& earlier, Design& design, const Prepared& p,
             at = add_keyed_group(design, p, whitener, *group.effect, group.keys);
         for (std::size_t g = 0; !at && g < design.groups().size(); ++g)
             if (same_cause(design.group(g), group) &&
+                design.group(g).is_whole == group.is_whole &&
                 design.group(g).parameters == group.parameters &&
                 design.group(g).shape.rows() == group.shape.rows() &&
                 (group.kind != GroupKind::table ||
@@ -267,6 +269,7 @@ Searched search_of(const Prepared& p, const Round& round, KeySearch& keys, const
         model = settled(design, setting, grown(design, setting, std::move(model)));
         if (model.score < before + 1.0) break;
     }
+    model = with_whole_drivers(design, setting, std::move(model));
     FoldColumns rows(design, {p.folds, round.used});
     model = without_idle_members(rows, setting, std::move(model));
     add_jumps_instead(design, p, whitener, rests, model);

@@ -7,6 +7,7 @@
 
 #include "diagnosis/candidate_groups.h"
 #include "diagnosis/rules.h"
+#include "diagnosis/whole_drivers.h"
 #include "estimation/free_form.h"
 
 namespace trunnion::diagnosis {
@@ -87,6 +88,7 @@ void add_wandering_groups(Design& design, const Prepared& prepared, const Whiten
         for (Eigen::Index k = 0; k < columns.cols(); ++k) group.features.push_back(first + k);
         group.log_prior =
             rules::table_prior - std::log(static_cast<double>(prepared.table.axes.size()));
+        add_whole(design, group);
         design.add_beside(std::move(group), owned);
     }
 }
