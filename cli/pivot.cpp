@@ -10,6 +10,7 @@
 #include "base/output_files.h"
 #include "base/read_file.h"
 #include "base/rounded.h"
+#include "base/utf8_text.h"
 #include "cli/command.h"
 #include "cli/notes.h"
 #include "cli/options.h"
@@ -69,7 +70,7 @@ pivot::PivotPrints read_maps(const PivotOptions& o, const setup::Setup& setup,
     std::vector<pivot::PrintedFile> printed;
     std::vector<records::ReadingTable> tables;
     for (const std::string& path : o.readings) {
-        std::string text = read_file(path);
+        std::string text = utf8_of(read_file(path), path);
         if (is_table(text))
             tables.push_back(load_readings(path, setup));
         else

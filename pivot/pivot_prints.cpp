@@ -5,17 +5,21 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <deque>
 #include <set>
 #include <string_view>
 
 #include "base/alarm.h"
+#include "base/numbers.h"
 #include "base/units.h"
+#include "base/utf8_text.h"
 
 namespace trunnion::pivot {
 
 namespace {
 
 constexpr double most_error_mm = 20.0;  ///< larger errors mean another unit or another machine
+constexpr double most_printed = 1e9;    ///< as in a table of readings; DPRNT prints eight digits
 
 /// One line with its position.
 struct PrintedLine {
@@ -27,19 +31,22 @@ struct PrintedLine {
         throw InputError(message, {*path, number, static_cast<int>(column) + 1}, std::string(text));
     }
     /// Number after `letter`. DPRNT prints the sign first and blanks for leading zeros: "B-
-    /// 90.0000".
+    /// 90.0000". The whole word is the number: a decimal comma or a digit lost on the way is told,
+    /// not read as what stands before it.
     double value(char letter, std::size_t from) const {
         const std::size_t at = text.find(letter, from);
         if (at == std::string_view::npos)
             refuse(fmt::format("{} is missing in this line", letter), from);
-        std::string digits(text.substr(at + 1));
-        const bool negative = !digits.empty() && digits[0] == '-';
-        if (negative) digits[0] = ' ';
-        char* end = nullptr;
-        const double value = std::strtod(digits.c_str(), &end);
-        if (end == digits.c_str() || !std::isfinite(value))
-            refuse(fmt::format("no number behind {}", letter), at);
-        return negative ? -value : value;
+        std::string_view left = text.substr(at + 1);
+        const bool negative = left.starts_with('-');
+        if (negative) left.remove_prefix(1);
+        left.remove_prefix(std::min(left.find_first_not_of(" \t"), left.size()));
+        left = left.substr(0, left.find_first_of(" \t"));
+        const bool sign_again = left.starts_with('-') || left.starts_with('+');
+        const auto value = sign_again ? std::nullopt : parse_number(left);
+        if (!value) refuse(fmt::format("no number behind {}", letter), at);
+        if (*value > most_printed) refuse(fmt::format("{} is beyond 1e9", left), at);
+        return negative ? -*value : *value;
     }
     Vector3 xyz(std::size_t from) const {
         return {value('X', from), value('Y', from), value('Z', from)};
@@ -85,12 +92,14 @@ class PrintReader {
 
     void read(const PrintedFile& file) {
         int number = 0;
-        for (std::size_t at = 0; at < file.text.size();) {
-            const std::size_t end = std::min(file.text.find('\n', at), file.text.size());
-            std::string_view text(file.text.data() + at, end - at);
-            while (!text.empty() && (text.back() == '\r' || text.back() == ' '))
-                text.remove_suffix(1);
-            while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+        const std::string& all = texts_.emplace_back(utf8_of(file.text, file.path));
+        const char line_end = all.find('\n') == std::string::npos ? '\r' : '\n';
+        for (std::size_t at = 0; at < all.size();) {
+            const std::size_t end = std::min(all.find(line_end, at), all.size());
+            std::string_view text(all.data() + at, end - at);
+            const auto idle = [](char c) { return c == '\r' || c == ' '; };
+            while (!text.empty() && idle(text.back())) text.remove_suffix(1);
+            while (!text.empty() && idle(text.front())) text.remove_prefix(1);
             line({&file.path, ++number, text});
             at = end + 1;
         }
@@ -108,6 +117,7 @@ class PrintReader {
     void point(const PrintedLine& line, FunctionRun& run, std::string_view word);
     void check(const std::string& function, const FunctionRun& run) const;
 
+    std::deque<std::string> texts_;  ///< the lines are parts of them
     Axis first_, second_;
     double unit_mm_ = 1.0;
     std::set<std::string> dates_;

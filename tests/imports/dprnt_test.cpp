@@ -320,6 +320,11 @@ TEST_CASE("one file of prints may hold several runs, each with a clock of its ow
     CHECK(days.back().session == "run_2");
 }
 
+TEST_CASE("prints that an editor saved with a byte order mark are read", "[imports][dprnt]") {
+    const setup::Setup setup = machine("bc_table.toml");
+    CHECK(imported(setup, "\xEF\xBB\xBF" + good).readings == imported(setup, good).readings);
+}
+
 TEST_CASE("prints that are refused name their line", "[imports][dprnt]") {
     const setup::Setup setup = machine("bc_table.toml");
     refuses(setup, "", "nothing was printed", 1);

@@ -291,7 +291,45 @@ TEST_CASE("prints that do not suit are refused with their place") {
     has(refusal(replaced(good, "DPP MAP1 B-60.0000", "DPP MAP1 B-59.0000")), "indexation");
     std::string inch = good;
     const auto at = inch.find("DPP MAP1 B-60.0000");
-    inch.replace(inch.find('X', at), 2, "X99.");
+    inch.replace(inch.find('.', inch.find('X', at)), 1, "99.");
     has(refusal(inch), "another unit or another machine");
     CHECK(refusal(inch).find("print.txt:") == 0);
+}
+
+// Read up to the mark, X 1,5 would be X 1: a store of 1 mm, typed in earnest.
+TEST_CASE("a printed word that is no number as a whole is refused where it stands") {
+    SeededNoise noise(10);
+    const std::string good =
+        random_case("bc_table.toml", noise, pivot::PivotGroup::g54, 0.1).printed;
+    const auto at = good.find("STORE G54 X") + 11;
+    for (const char* bad :
+         {"0,1443", "1.2.3", "0.1x", "0x12", "--1", "-+1", "1e5000", "nan", "inf"}) {
+        INFO(bad);
+        std::string text = good;
+        text.replace(at, text.find(' ', at) - at, bad);
+        CHECK(refusal(text).find(": no number behind X") != std::string::npos);
+    }
+    std::string text = good;
+    CHECK(refusal(text.replace(at, text.find(' ', at) - at, "1e308")).find("1e308 is beyond 1e9") !=
+          std::string::npos);
+}
+
+TEST_CASE("prints as editors save them are read alike: byte order marks, line ends") {
+    SeededNoise noise(10);
+    const Case c = random_case("bc_table.toml", noise, pivot::PivotGroup::g54, 0.1);
+    const auto read = [&](const std::string& text) {
+        const auto prints = pivot::parse_pivot_prints({{"p", text}}, Axis::B, Axis::C);
+        return std::pair(prints.maps.size(), prints.sphere_mm());
+    };
+    const auto ended = [&](const std::string& end) {
+        std::string text;
+        for (const char l : c.printed) text += l == '\n' ? end : std::string(1, l);
+        return text;
+    };
+    std::string utf16 = "\xFF\xFE";
+    for (const char l : c.printed) utf16 += {l, '\0'};
+    const auto plain = read(c.printed);
+    for (const std::string& text : {"\xEF\xBB\xBF" + c.printed, "\xEF\xBB\xBF" + ended("\r\n"),
+                                    ended("\r"), ended("\n\r\r"), utf16})
+        CHECK(read(text) == plain);
 }
