@@ -5,6 +5,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string_view>
 
@@ -53,6 +54,10 @@ bool goes_on(const PathPoint& start, const Segment& last, const Segment& next) {
     return done.dot(more) > 0.0 && done.cross(more).norm() <= 1e-7 * (done + more).norm();
 }
 
+/// Six decimals of a path in mm: a larger number is no path, and its distance to another overflows,
+/// which no comparison would call a difference.
+constexpr double largest = 1e9;
+
 class RowReader {
   public:
     RowReader(std::string_view line, const std::string& path, int number)
@@ -73,7 +78,17 @@ class RowReader {
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), v);
         if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(v))
             fail("not a number: '" + std::string(text) + "'");
+        if (std::abs(v) > largest) fail(std::string(text) + " is beyond 1e9");
         return v;
+    }
+    /// A count of the type's range: the conversion of another number is undefined.
+    template <class Count>
+    Count count() {
+        const double v = value();
+        if (v < 0.0 || v > std::numeric_limits<Count>::max() || v != std::floor(v))
+            fail(fmt::format("a whole number of 0 to {} is expected here",
+                             std::numeric_limits<Count>::max()));
+        return static_cast<Count>(v);
     }
     [[noreturn]] void fail(const std::string& message) const {
         throw InputError(message, {path_, number_, static_cast<int>(field_at_) + 1},
@@ -100,11 +115,11 @@ Segment segment_of(RowReader row, int line) {
         s.kind = SegmentKind::jump;
     else
         row.fail("not a motion (START, G0, G1, ARC, JUMP)");
-    s.tool = static_cast<std::uint16_t>(row.value());
+    s.tool = row.count<std::uint16_t>();
     s.feed_mm_min = static_cast<float>(row.value());
     s.spindle_rpm = static_cast<float>(row.value());
     s.coolant = row.value() != 0.0;
-    s.mode = static_cast<std::uint8_t>(row.value());
+    s.mode = row.count<std::uint8_t>();
     for (double& v : s.end_mm) v = row.value();
     for (double& v : s.end_orientation) v = row.value();
     for (double& v : s.centre_mm) v = row.value();

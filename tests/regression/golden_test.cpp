@@ -127,6 +127,15 @@ TEST_CASE("what is no golden is refused with its place", "[golden]") {
             refusal(head + start + "G1,1," + bad + ",8000,0,0,1,2,3,0,0,1,,,,,,,\n");
         CHECK(said.find(std::string("4:6 not a number: '") + bad + "'") == 0);
     }
+    // The distance to 1e308 overflows, and what is no number is no difference.
+    for (const char* bad : {"1e308", "-1e308", "2e9"})
+        CHECK(refusal(head + start + "G1,1,500,8000,0,0,1," + bad + ",3,0,0,1,,,,,,,\n") ==
+              std::string("4:21 ") + bad + " is beyond 1e9");
+    for (const char* bad : {"-1", "70000", "1.5"})
+        CHECK(refusal(head + start + "G1," + bad + ",500,8000,0,0,1,2,3,0,0,1,,,,,,,\n") ==
+              "4:4 a whole number of 0 to 65535 is expected here");
+    CHECK(refusal(head + start + "G1,1,500,8000,0,256,1,2,3,0,0,1,,,,,,,\n") ==
+          "4:17 a whole number of 0 to 255 is expected here");
 }
 
 TEST_CASE("a jump of the believed tip is kept, and a path without a move is a head alone",
