@@ -284,7 +284,9 @@ struct Answer {
 
 Answer judged(const Asked& asked, LogOfProgram log) {
     const GapQuestion& question = asked.question;
-    Answer out{{}, question.setup};
+    // Not Answer{{}, setup}: without memory for the copy, GCC 12 destroys a gap that it never made.
+    Answer out;
+    out.reached = question.setup;
     ControlGap& gap = out.gap;
     gap.setup = question.setup;
     gap.notes = log.notes;

@@ -196,6 +196,20 @@ TEST_CASE("no memory for any matrix of a diagnosis ends it in an abort") {
     }
 }
 
+// A compiler may destroy what it has not made yet.
+TEST_CASE("no memory for any part of a diagnosis of a log ends it in an abort") {
+    const FaultBench bench;
+    const std::string words =
+        "diagnose in/log.csv --program in/part.nc --programs in --setup in/machine.toml --json";
+    bench.run(words, "malloc:0");
+    const long count = bench.calls();
+    for (long call = 1; call < count; call += 11) {
+        const Outcome faulted = bench.run(words, "malloc:" + std::to_string(call));
+        INFO("malloc " << call << "\n" << bench.read("err.txt"));
+        CHECK((faulted.code == 4 || faulted.code == 2 || faulted.code == 0));
+    }
+}
+
 TEST_CASE("an output whose bytes may not have reached the disk is refused") {
     const FaultBench bench;
     const std::string words = "run in/part.nc --programs in --trace out/t.csv";
