@@ -18,6 +18,7 @@
 #include "cli/readings_command.h"
 #include "diagnosis/diagnosis.h"
 #include "emulator/declared.h"
+#include "records/same_readings.h"
 #include "report/diagnosis_json.h"
 #include "report/diagnosis_page.h"
 #include "report/diagnosis_text.h"
@@ -86,6 +87,7 @@ int diagnose_command(const DiagnoseOptions& options) {
     if (!options.holdout.empty()) holdout = load_readings(options.holdout, setup);
     emulator::refuse_declared_otherwise(setup, table);
     if (holdout) emulator::refuse_declared_otherwise(setup, *holdout);
+    if (holdout) records::refuse_same_readings(table, *holdout);
     diagnosis::DiagnosisOptions how;
     how.holdout = holdout ? &*holdout : nullptr;
     how.over_sessions = !options.over.empty();

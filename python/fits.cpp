@@ -11,6 +11,7 @@
 #include "python/bindings.h"
 #include "python/loaded_setup.h"
 #include "python/signals.h"
+#include "records/same_readings.h"
 #include "report/diagnosis_json.h"
 #include "report/identification_report.h"
 #include "report/parameters_json.h"
@@ -61,6 +62,7 @@ FoundDiagnosis diagnose(const LoadedSetup& loaded, const ReadingTable& table,
                         const std::optional<ReadingTable>& holdout, bool allow_large) {
     emulator::refuse_declared_otherwise(loaded.setup, table);
     if (holdout) emulator::refuse_declared_otherwise(loaded.setup, *holdout);
+    if (holdout) records::refuse_same_readings(table, *holdout);
     diagnosis::DiagnosisOptions how;
     how.holdout = holdout ? &*holdout : nullptr;
     how.watch = [](const char*) { stop_on_ctrl_c(); };

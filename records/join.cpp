@@ -3,6 +3,7 @@
 #include <set>
 
 #include "records/readings.h"
+#include "records/same_readings.h"
 
 namespace trunnion::records {
 namespace {
@@ -43,19 +44,6 @@ void join_declared(ReadingTable& to, const ReadingTable& from) {
     }
 }
 
-/// The same table given twice would look like repeats without noise.
-void refuse_same(const ReadingTable& first, const ReadingTable& next) {
-    const auto same = [](const Reading& a, const Reading& b) {
-        return a.commanded == b.commanded && a.value_mm == b.value_mm && a.device == b.device;
-    };
-    std::size_t values = 0;
-    for (const Reading& row : next.rows) values += row.value_mm && *row.value_mm != 0.0 ? 1 : 0;
-    if (values > 0 && std::search(first.rows.begin(), first.rows.end(), next.rows.begin(),
-                                  next.rows.end(), same) != first.rows.end())
-        throw InputError("the same readings as in " + first.path + ", given twice",
-                         {next.path, 0, 0});
-}
-
 /// A name not used by an earlier table: "map", "map_2", ...
 std::string free_name(const std::string& name, const std::set<std::string>& taken) {
     std::string candidate = name;
@@ -94,7 +82,7 @@ ReadingTable join_readings(std::vector<ReadingTable> tables) {
     joined.parts = {joined.path};
     for (std::size_t k = 1; k < tables.size(); ++k) {
         refuse_unlike(joined, tables[k]);
-        refuse_same(joined, tables[k]);
+        refuse_same_readings(joined, tables[k]);
         append(joined, std::move(tables[k]));
     }
     return joined;
