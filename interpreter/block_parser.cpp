@@ -175,7 +175,8 @@ void BlockParser::comma_word() {
     const std::uint16_t column = in_.column();
     ++in_.p;
     const char c = in_.peek();
-    if (c != 'R' && c != 'C' && c != 'A') raise_language_alarm(9, column, "stray comma");
+    if (c == 'A') raise_language_alarm(9, column, "direct drawing dimensions are not emulated");
+    if (c != 'R' && c != 'C') raise_language_alarm(9, column, "stray comma");
     const char letter = static_cast<char>(c - 'A' + 'a');
     ++in_.p;
     Item& item = add(ItemKind::word, column);
