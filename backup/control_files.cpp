@@ -9,6 +9,7 @@
 #include "base/alarm.h"
 #include "base/output_files.h"
 #include "base/read_file.h"
+#include "offsets/whole_parameter.h"
 
 namespace trunnion::backup {
 
@@ -50,7 +51,7 @@ void require_pivot(const ControlBackup& backup, const std::vector<BackupValue>& 
 
 /// 0000#2: the unit of the offsets in the files.
 bool is_inch(double bits_of_0) {
-    return (static_cast<int>(bits_of_0) & 4) != 0;
+    return (offsets::bits_of_parameter(bits_of_0) & 4U) != 0;
 }
 
 void require_same_units(const std::vector<BackupValue>& values, const offsets::Stores& stores) {

@@ -2,12 +2,14 @@
 
 #include <cstdlib>
 
+#include "offsets/whole_parameter.h"
+
 namespace trunnion::controller {
 
 interpreter::CodeCalls decode_code_calls(const offsets::Parameters& parameters) {
     interpreter::CodeCalls calls;
     const auto code_of = [&](int number) {
-        return static_cast<int>(parameters.get(number));  // 0: no call
+        return offsets::whole_parameter(parameters.get(number));  // 0: no call
     };
     for (int i = 0; i < 10; ++i) {
         if (const int g = code_of(6050 + i)) calls.g[std::abs(g) * 10] = {9010 + i, true, g < 0};

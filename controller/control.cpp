@@ -1,5 +1,7 @@
 #include "controller/control.h"
 
+#include "offsets/whole_parameter.h"
+
 namespace trunnion::controller {
 
 namespace {
@@ -19,7 +21,7 @@ Control::Control(ControlConfig config_, offsets::Stores& stores_, motion::Motion
       mover(words, modal, frames, sink),
       m_codes(config),
       clock(config.clock_s) {
-    modal.codes = initial_modal_codes(static_cast<unsigned>(stores.parameters.get(3402)));
+    modal.codes = initial_modal_codes(offsets::bits_of_parameter(stores.parameters.get(3402)));
     if (stores.parameters.bit(0, 2)) modal.codes.set(ModalGroup::units, 200);
     mover.axes.configure(config);
     parameters_changed();

@@ -4,6 +4,7 @@
 
 #include "base/units.h"
 #include "offsets/axis_numbers.h"
+#include "offsets/whole_parameter.h"
 
 namespace trunnion::controller {
 
@@ -25,7 +26,7 @@ void decode_axes(const offsets::Parameters& parameters, const ControlConfig& con
         s.overrun[i] = for_axis(parameters, 5440, number);
         const double jump = for_axis(parameters, 1783, number);
         s.corner_jump[i] = jump > 0.0 ? jump : default_corner_jump;
-        const auto roa = static_cast<unsigned>(for_axis(parameters, 1008, number));
+        const auto roa = offsets::bits_of_parameter(for_axis(parameters, 1008, number));
         if (config.axes[k].rotary && (roa & 1U))
             s.rollover = static_cast<std::uint16_t>(s.rollover | (1U << i));
         if (config.axes[k].rotary && (roa & 2U))
@@ -110,7 +111,7 @@ ControlSettings decode_settings(const offsets::Parameters& parameters,
     s.least_surface_rpm = parameters.get(3771);
     if (const double most = parameters.get(3772); most > 0.0) s.most_rpm = most;
     s.measuring = {parameters.get(6241), parameters.get(6251), parameters.get(6254)};
-    s.surface_axis_number = std::max(1, static_cast<int>(parameters.get(3770)));
+    s.surface_axis_number = std::max(1, offsets::whole_parameter(parameters.get(3770)));
     decode_axes(parameters, config, s);
     return s;
 }

@@ -5,6 +5,7 @@
 
 #include "base/units.h"
 #include "offsets/axis_numbers.h"
+#include "offsets/whole_parameter.h"
 
 namespace trunnion::offsets {
 
@@ -22,7 +23,7 @@ double command_multiplier(double parameter) {
 
 /// Of 1851 and the pitch data, mm or rad.
 double detection_unit(const Parameters& parameters, Axis axis, int number) {
-    const auto bits = static_cast<unsigned>(value_of_axis(parameters, 1013, number).value_or(0.0));
+    const auto bits = bits_of_parameter(value_of_axis(parameters, 1013, number).value_or(0.0));
     const double least = bits & 2U ? 1e-4 : 1e-3;
     const double unit = is_rotary(axis)           ? rad_from_deg(1.0)
                         : parameters.bit(1001, 0) ? mm_from_inch(0.1)
@@ -37,7 +38,7 @@ struct PitchPoints {
 
 std::optional<PitchPoints> points_of(const Parameters& parameters, int number) {
     const auto point = [&](int parameter) {
-        return static_cast<int>(value_of_axis(parameters, parameter, number).value_or(0.0));
+        return whole_parameter(value_of_axis(parameters, parameter, number).value_or(0.0));
     };
     const PitchPoints points{point(3620), point(3621), point(3622)};
     const bool right = 0 <= points.first && points.first <= points.reference + 1 &&

@@ -1,5 +1,7 @@
 #include "offsets/stores.h"
 
+#include "offsets/whole_parameter.h"
+
 namespace trunnion::offsets {
 
 std::optional<double> Parameters::find(int number) const {
@@ -13,7 +15,7 @@ double Parameters::get(int number, double otherwise) const {
 }
 
 bool Parameters::bit(int number, int index) const {
-    return (static_cast<unsigned>(get(number)) >> static_cast<unsigned>(index) & 1U) != 0;
+    return (bits_of_parameter(get(number)) >> static_cast<unsigned>(index) & 1U) != 0;
 }
 
 void Parameters::set(int number, double value) {
@@ -22,7 +24,7 @@ void Parameters::set(int number, double value) {
 
 void Parameters::set_bit(int number, int index, bool on) {
     const unsigned mask = 1U << static_cast<unsigned>(index);
-    const auto byte = static_cast<unsigned>(get(number));
+    const unsigned byte = bits_of_parameter(get(number));
     set(number, on ? (byte | mask) : (byte & ~mask));
 }
 

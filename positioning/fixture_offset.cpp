@@ -9,6 +9,7 @@
 #include "base/alarm.h"
 #include "base/units.h"
 #include "offsets/axis_numbers.h"
+#include "offsets/whole_parameter.h"
 
 namespace trunnion::positioning {
 
@@ -16,8 +17,8 @@ namespace {
 
 Axis group_axis(const offsets::Parameters& parameters, int number, const std::vector<Axis>& order,
                 bool rotary) {
-    const auto axis =
-        offsets::axis_of_number(parameters, static_cast<int>(parameters.get(number)), order);
+    const auto axis = offsets::axis_of_number(
+        parameters, offsets::whole_parameter(parameters.get(number)), order);
     if (!axis || is_rotary(*axis) != rotary)
         throw Alarm(5459, fmt::format("MACHINE PARAMETER INCORRECT (No.{})", number));
     return *axis;

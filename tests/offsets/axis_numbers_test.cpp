@@ -2,8 +2,10 @@
 #include "offsets/axis_numbers.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "offsets/parameter_units.h"
+#include "offsets/whole_parameter.h"
 
 namespace trunnion {
 
@@ -66,6 +68,20 @@ TEST_CASE("lengths of the five-axis group are inches on an inch machine, the res
         CHECK(offsets::parameter_unit_mm(p, number) == 25.4);
     for (const int number : {19665, 19667, 19699, 19706, 19708, 19715, 1240})
         CHECK(offsets::parameter_unit_mm(p, number) == 1.0);
+}
+
+// A file may hold any number; to convert one beyond an int is undefined.
+TEST_CASE("a parameter beyond nine digits is no whole number") {
+    using offsets::bits_of_parameter;
+    using offsets::whole_parameter;
+    CHECK(whole_parameter(12.9) == 12);
+    CHECK(whole_parameter(-7.0) == -7);
+    CHECK(whole_parameter(999'999'999.0) == 999'999'999);
+    for (const double none : {1e9, -1e9, 1e22, -1e308, std::nan(""), HUGE_VAL})
+        CHECK(whole_parameter(none) == 0);
+    CHECK((bits_of_parameter(6.0) & 2U) == 2U);
+    CHECK((bits_of_parameter(-1.0) & 2U) == 2U);
+    CHECK(bits_of_parameter(1e22) == 0U);
 }
 
 }  // namespace trunnion
