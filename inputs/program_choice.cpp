@@ -70,11 +70,13 @@ ProgramAndFolders open_program(const std::string& name, std::vector<std::string>
     std::error_code unknown;
     const fs::file_status found = fs::status(name, unknown);
     const bool is_file = name == "-" || (fs::exists(found) && !fs::is_directory(found));
+    const auto number = o_number(name);
+    if (!number && fs::is_directory(found))
+        throw InputError("is a folder, not a program", {name, 0, 0});
     if (is_file) {
         const interpreter::ProgramText text = interpreter::read_main_program(name);
         return {text, folders_of_file(text, std::move(folders))};
     }
-    const auto number = o_number(name);
     if (!number) throw InputError("no such program, or it cannot be read", {name, 0, 0});
     interpreter::ProgramFolders source = with_shipped(folders);
     if (!source.holds_own(*number)) {  // called by number: a shipped program may be used

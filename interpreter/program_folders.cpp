@@ -150,7 +150,8 @@ ProgramText read_main_program(const std::string& path) {
 }
 
 void refuse_empty(const ProgramText& program) {
-    if (program.text.find_first_not_of(" \t\r\n%") == std::string_view::npos)
+    const std::string_view text = program.text.substr(start_of_text(program.text).byte);
+    if (text.find_first_not_of(" \t\r\n%") == std::string_view::npos)
         throw InputError("the program is empty", {program.name, 0, 0});
 }
 

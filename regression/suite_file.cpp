@@ -204,6 +204,11 @@ std::set<std::string> programs_below(const std::string& folder) {
 }
 
 Suite suite_of_folders(const std::string& a, const std::string& b, const SuiteCase& like) {
+    for (const auto& [one, other] : {std::pair(a, b), std::pair(b, a)})
+        if (fs::exists(one) && !fs::is_directory(one) && fs::is_directory(other))
+            throw InputError(
+                "is a file, but " + other + " is a folder: compare takes two of a kind",
+                {one, 0, 0});
     Suite suite;
     suite.name = a + " " + b;
     const std::set<std::string> in_a = programs_below(a), in_b = programs_below(b);

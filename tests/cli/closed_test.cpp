@@ -30,9 +30,17 @@ TEST_CASE("an empty name, an empty program and a folder without programs are ref
     for (const std::string words : {"run ", "check ", "compensate "})
         bench.refuses(words + empty, "the program is empty");
     bench.refuses("compare " + empty + " " + empty, "the program is empty");
+    const std::string marked = bench.write("marked.nc", "\xEF\xBB\xBF%\n");
+    for (const std::string words : {"run ", "check ", "compensate "})
+        bench.refuses(words + marked, "the program is empty");
     fs::create_directories(bench.path / "none");
     bench.refuses("check " + bench.file("none"), "no NC program in this folder");
     bench.refuses("compare " + bench.file("none") + " " + bench.file("none"), "no NC programs");
+    for (const std::string words : {"run ", "compensate "})
+        bench.refuses(words + bench.file("none"), "none: error: is a folder, not a program");
+    for (const std::string& words :
+         {bench.nc + " " + bench.file("none"), bench.file("none") + " " + bench.nc})
+        bench.refuses("compare " + words, ".nc: error: is a file, but " + bench.file("none"));
 }
 
 TEST_CASE("a suite with a misspelled key, without cases, or with a golden elsewhere is refused") {
