@@ -229,12 +229,9 @@ TEST_CASE("several tables are read as one") {
     CHECK(bench.trunnion("diagnose " + table + " " + table + " --setup " + setup) == 2);
     CHECK_THAT(bench.read("err.txt"), Catch::Contains("given twice"));
     // Held out they would confirm whatever was fitted to them.
-    const std::string copy = bench.write("copy.csv", text_of(good.lines));
-    for (const std::string& held : {table, copy}) {
-        CHECK(bench.trunnion("diagnose " + table + " --holdout " + held + " --setup " + setup) ==
-              2);
-        CHECK_THAT(bench.read("err.txt"), Catch::Contains(held + ": error: the same readings"));
-    }
+    const std::string held = bench.write("held.csv", text_of(good.lines));
+    CHECK(bench.trunnion("diagnose " + table + " --holdout " + held + " --setup " + setup) == 2);
+    CHECK_THAT(bench.read("err.txt"), Catch::Contains(held + ": error: the same readings"));
 }
 
 TEST_CASE("files of two dates are compared: text, JSON, page and the machine of the last") {
