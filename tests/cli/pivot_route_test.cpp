@@ -229,7 +229,8 @@ TEST_CASE("pivot: values in another unit are refused") {
     const std::string prints = bench.prints();
     const std::size_t at = prints.find(" X", prints.find("DPP MAP 1 B"));
     REQUIRE(at != std::string::npos);
-    bench.refuses(std::string(prints).insert(at + 2, "144"), "another unit or another machine");
+    bench.refuses(std::string(prints).insert(prints.find('.', at + 2), "144"),
+                  "another unit or another machine");
 }
 
 TEST_CASE("pivot: a file that is read is never written") {
