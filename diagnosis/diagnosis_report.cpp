@@ -9,6 +9,7 @@
 #include "diagnosis/between_places.h"
 #include "diagnosis/causes.h"
 #include "diagnosis/changes.h"
+#include "diagnosis/doubted.h"
 #include "diagnosis/next_measurement.h"
 #include "diagnosis/offers.h"
 #include "diagnosis/reading_sizes.h"
@@ -295,40 +296,12 @@ Told told_of(const Outcome& found, const records::ReadingTable* holdout) {
     return told;
 }
 
-/// The judgement with causes that do not hold between their places, because a ripple that these do
-/// not resolve is the more likely one, or anything else than the ripple that was found: both are
-/// the same at the places and differ between them.
-std::optional<Judgement> doubted_by_ripples(const Outcome& f, const std::vector<Claim>& claims) {
-    Judgement judgement = f.judgement;
-    bool any = false;
-    for (const Claim& claim : claims) {
-        if (claim.probability >= rules::claimed || claim.share < rules::between_part ||
-            !judgement.interpolates[claim.position])
-            continue;
-        const bool is_ripple =
-            f.design.group(f.model.members[claim.position]).kind == GroupKind::periodic;
-        const bool rippled =
-            is_ripple || std::any_of(claim.rival_groups.begin(), claim.rival_groups.end(),
-                                     [&](std::size_t group) {
-                                         return f.design.groups()[group].only_rival &&
-                                                f.design.group(group).kind == GroupKind::periodic;
-                                     });
-        if (!rippled) continue;
-        any = true;
-        for (std::size_t k = 0; k < f.model.members.size(); ++k)
-            if (f.design.group(f.model.members[k]).name == claim.name)
-                judgement.interpolates[k] = false;
-    }
-    judgement.between_places &= !any;
-    return any ? std::optional(std::move(judgement)) : std::nullopt;
-}
-
 }  // namespace
 
 Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options) {
     Told told = told_of(found, options.holdout);
-    if (const auto doubted = doubted_by_ripples(found, told.claims))
-        told = told_of(with_judgement(found, *doubted), options.holdout);
+    if (const auto less = doubted(found, told.claims))
+        told = told_of(with_judgement(found, *less), options.holdout);
     Written& written = told.written;
     const Outcome f = with_judgement(found, told.judgement);
     const std::vector<Claim>& claims = told.claims;

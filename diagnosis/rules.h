@@ -50,6 +50,8 @@ constexpr double least_rms = 0.7;     ///< ... unless they move the readings by 
 constexpr double most_own = 3.0;      ///< maximum squared sum of contributions that cancel
 constexpr double main_family = 0.6;   ///< share of an axis's free forms; if smaller, none is named
 
+constexpr double enormous = 30.0;  ///< typical sizes: a cause beyond is not written unless claimed
+
 constexpr double most_scatter = 4.0;    ///< of repeats, relative to what is stated: more is a gap
 constexpr double most_outliers = 0.04;  ///< of the readings: more are a gap of some kind
 constexpr double most_doubtful = 0.2;   ///< ... of which the evidence may say that they are spoiled

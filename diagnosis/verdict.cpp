@@ -322,8 +322,7 @@ Model without_idle_members(FoldColumns& rows, const SearchSetting& setting, Mode
 namespace {
 
 bool tells_where(const ColumnGroup& group) {
-    return group.kind == GroupKind::offset ||
-           (group.kind == GroupKind::driver && !group.is_whole);
+    return group.kind == GroupKind::offset || (group.kind == GroupKind::driver && !group.is_whole);
 }
 
 }  // namespace

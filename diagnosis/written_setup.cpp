@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "diagnosis/doubted.h"
 #include "diagnosis/rules.h"
 #include "diagnosis/solution.h"
 #include "effects/settings.h"
@@ -138,6 +139,29 @@ std::vector<bool> predicting_elsewhere(const Outcome& f, const Folds& paths) {
     }
 }
 
+/// A changed model, tuned, without members that are many times the usual size only there: without
+/// what was taken out, the readings do not tell how large they are.
+Model without_enormous(const Outcome& f, Model model) {
+    const std::vector<double> found = usual_sizes(f.design, f.model);
+    const auto was_enormous = [&](std::size_t group) {
+        const std::size_t at = position_of(f, group);
+        return at < found.size() && found[at] > rules::enormous;
+    };
+    for (bool again = true; again;) {
+        model = tuned(f.design, f.setting, std::move(model), 2);
+        const std::vector<double> sizes = usual_sizes(f.design, model);
+        again = false;
+        for (std::size_t k = model.members.size(); k-- > 0;) {
+            const std::size_t m = model.members[k];
+            if (!is_cause(f.design.group(m).kind) || sizes[k] <= rules::enormous || was_enormous(m))
+                continue;
+            model = without(model, k);
+            again = true;
+        }
+    }
+    return model;
+}
+
 /// The model with the textbook forms of the tables that were found: a few numbers may hold where
 /// the curve does not.
 Model with_textbook_forms(const Outcome& f, Model model) {
@@ -181,8 +205,7 @@ std::vector<WrittenCandidate> candidates_of(const Outcome& f, const Folds& paths
                 return c.model.members == model.members;
             }))
             return;
-        if (model.members != f.model.members)
-            model = tuned(f.design, f.setting, std::move(model), 2);
+        if (model.members != f.model.members) model = without_enormous(f, std::move(model));
         list.push_back({std::move(model), found});
     };
     for (const TakesMember& takes :

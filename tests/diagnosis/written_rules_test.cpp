@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
+#include "diagnosis/doubted.h"
+#include "diagnosis/rules.h"
 #include "diagnosis/written_setup.h"
 #include "tests/support/campaign.h"
 
@@ -108,6 +110,40 @@ TEST_CASE("a drift beside another course of time is not written", "[diagnosis][w
         CHECK(judgement.interpolates[0] != of_time);
         CHECK(writes(rows, design, model, judgement) != of_time);
     }
+}
+
+// A play of 240 um beside a gap of a tenth of it: few readings show it, and other readings refute
+// it.
+TEST_CASE("what is many times the usual size is written only where it is claimed",
+          "[diagnosis][written]") {
+    Rows rows;
+    const Eigen::MatrixXd backlash = rows.noise(1);
+    for (const double size : {0.8, 1.2})
+        for (const double probability : {0.49, 0.5}) {
+            const Eigen::MatrixXd column = backlash / (size * diagnosis::rules::enormous);
+            diagnosis::Design design = rows.design(5.0 * backlash.col(0) + rows.noise(1).col(0));
+            const std::size_t cause =
+                add(design, of_kind(GroupKind::textbook, &rows.effect("C.backlash")), 5.0 * column);
+            const diagnosis::Model model = fitted(design, {cause});
+            const diagnosis::Judgement judgement = judged(rows, design, model);
+            REQUIRE(judgement.interpolates[0]);
+            const diagnosis::SearchSetting setting =
+                diagnosis::search_setting(design, plain_noise.prior);
+            diagnosis::Claim claim;
+            claim.name = "C.backlash";
+            claim.probability = probability;
+            claim.own = 1.0;
+            const auto less =
+                diagnosis::doubted({rows.prepared, design, setting, model, judgement, plain_noise,
+                                    rows.used, rows.used, diagnosis::Challenged{}},
+                                   {claim});
+            INFO(size << " of the limit, probability " << probability);
+            REQUIRE(less.has_value() == (size > 1.0 && probability < 0.5));
+            if (!less) continue;
+            CHECK_FALSE(less->between_places);
+            CHECK_FALSE(writes(rows, design, model, *less));
+            CHECK(writes(rows, design, model, judgement));
+        }
 }
 
 TEST_CASE("a cause that removes less than half of the gap is not written", "[diagnosis][written]") {

@@ -1,0 +1,22 @@
+// What is said of a cause only after all are weighed: that it holds at the measured places alone.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "diagnosis/claims.h"
+#include "diagnosis/diagnosis_report.h"
+
+namespace trunnion::diagnosis {
+
+/// The largest value of each member, in typical sizes of its effect (5 um or 40 urad of a table).
+std::vector<double> usual_sizes(Design& design, const Model& model);
+
+/// The judgement with causes that do not hold between their places, if there are any:
+/// - a ripple that the places do not resolve is the more likely one, or anything else than the
+///   ripple that was found: both are the same at the places and differ between them;
+/// - a cause that is not claimed and many times the usual size (rules::enormous): the places hardly
+///   show it, or other causes take it back there.
+std::optional<Judgement> doubted(const Outcome& found, const std::vector<Claim>& claims);
+
+}  // namespace trunnion::diagnosis
