@@ -133,6 +133,38 @@ void join_targets(const std::vector<NoiseBlock>& blocks, const emulator::Replay&
         std::iota(folds.fold.begin(), folds.fold.end(), 0);
 }
 
+namespace {
+
+/// The direction of all motions of an axis; 0 where it moves both ways, or not at all.
+signed char only_direction(const emulator::Replay& replay, Axis axis) {
+    signed char only = 0;
+    for (std::size_t i = 0; i < replay.size(); ++i) {
+        const signed char travel = replay.sample(i).travel[index_of(axis)];
+        if (replay.sample(i).side_unknown[index_of(axis)] || travel == 0) continue;
+        if (only != 0 && travel != only) return 0;
+        only = travel;
+    }
+    return only;
+}
+
+/// Sides that nothing tells, of axes that move both ways. An axis that never reverses came the same
+/// way: else what its first place has of its own would be a play.
+std::vector<std::size_t> sides_to_find(emulator::Replay& replay,
+                                       const std::vector<identification::FoundSide>& found) {
+    std::vector<std::size_t> open;
+    for (std::size_t k = 0; k < replay.unknown_sides().size(); ++k) {
+        if (std::any_of(found.begin(), found.end(), [&](const auto& s) { return s.open == k; }))
+            continue;
+        if (const signed char only = only_direction(replay, replay.unknown_sides()[k].axis))
+            replay.assume_side(k, only);
+        else
+            open.push_back(k);
+    }
+    return open;
+}
+
+}  // namespace
+
 Prepared::Prepared(const setup::Setup& setup, const records::ReadingTable& readings)
     : table(readings),
       replay(setup, readings),
@@ -144,9 +176,7 @@ Prepared::Prepared(const setup::Setup& setup, const records::ReadingTable& readi
                          {table.path, 0, 0});
     base_sides = sides =
         identification::choose_sides(setup, table, replay, catalogue, setup.model.modelled);
-    for (std::size_t k = 0; k < replay.unknown_sides().size(); ++k)
-        if (std::none_of(sides.begin(), sides.end(), [&](const auto& s) { return s.open == k; }))
-            open_sides.push_back(k);
+    open_sides = sides_to_find(replay, sides);
     base = identification::fit_base(setup, table, replay, catalogue, setup.model.modelled);
     blocks = noise_blocks(replay, table);
     cycle = cycles_of(replay, table);

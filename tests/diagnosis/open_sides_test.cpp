@@ -5,6 +5,9 @@
 
 #include "diagnosis/diagnosis.h"
 #include "tests/support/campaign.h"
+#include "tests/support/diagnosed.h"
+#include "tests/support/laser_lines.h"
+#include "tests/support/said.h"
 
 namespace trunnion {
 namespace {
@@ -56,6 +59,41 @@ TEST_CASE("unknown sides make no gap", "[diagnosis][sides]") {
             diagnosis::diagnose(setup, without_sides(campaign::real_machine(setup), -1, seed));
         CHECK(d.verdict == diagnosis::Verdict::no_gap);
         CHECK(d.sides.empty());
+    }
+}
+
+TEST_CASE("an axis that never reverses has no play", "[diagnosis][sides]") {
+    // A raster with Y slowest. Its first line is 40 um off; or it is taken again on the way back,
+    // with a play of 40 um.
+    const setup::Setup setup = laser_lines::stage(
+        "noise_um = { point = 2 }\n[[instrument]]\nname = \"T\"\nframe = \"W\"\nfree = "
+        "[\"pose\"]\n");
+    for (const bool reverses : {false, true}) {
+        records::ReadingTable table = laser_lines::empty_table();
+        table.side_before = {};
+        table.optional_columns = {"instrument"};
+        SeededNoise random(8);
+        for (int pass = 0; pass < (reverses ? 2 : 1); ++pass)
+            for (int line = 0; line < 8; ++line)
+                for (int k = 0; k < 27; ++k) {
+                    records::Reading row;
+                    row.index = static_cast<int>(table.rows.size());
+                    row.time_s = 10.0 * (row.index / 3);
+                    row.commanded[Axis::Y] = 50.0 * (pass ? 7 - line : line);
+                    row.commanded[Axis::X] = 50.0 * (line % 2 ? 4 - k / 3 : k / 3 - 4);
+                    row.test = "raster";
+                    row.device = records::Device::point;
+                    row.feature = "R1";
+                    row.instrument = "T";
+                    row.direction_M = Vector3::Unit(k % 3);
+                    const double told_mm = pass ? -0.02 : 0.02, step_mm = line == 0 ? 0.04 : 0.0;
+                    row.value_mm = 2e-3 * random.normal();
+                    if (k % 3 == 1) *row.value_mm += reverses ? told_mm : step_mm;
+                    table.rows.push_back(row);
+                }
+        const diagnosis::Diagnosis d = diagnosis::diagnose(setup, table);
+        INFO(reverses << ": " << said(d));
+        CHECK(claims(d, "Y.backlash") == reverses);
     }
 }
 
