@@ -110,6 +110,23 @@ void mark_accidents(const Design& design, const Prepared& prepared, const Model&
     }
 }
 
+/// True for a textbook form with a bend, or with a table beside it, of a linear axis that was read
+/// at so few places that other forms would do the same there.
+bool bends_at_few_places(const Design& design, const Prepared& prepared, const Model& model,
+                         std::size_t position) {
+    const ColumnGroup& group = design.group(model.members[position]);
+    if (group.kind != GroupKind::textbook || !group.effect->axis) return false;
+    const Axis axis = *group.effect->axis;
+    const auto bends = [&](std::size_t m) {
+        const ColumnGroup& table = design.group(m);
+        return table.kind == GroupKind::table && table.table.axis.axis == axis;
+    };
+    return !prepared.table.names.is_rotary(axis) &&
+           place_count(prepared, axis) < rules::bend_places &&
+           (group.columns() > 1 || group.effect->kind == effects::EffectKind::straightness ||
+            std::any_of(model.members.begin(), model.members.end(), bends));
+}
+
 double share_of_tables(const Sizes& sizes, const std::vector<bool>& those) {
     double sum = 0.0;
     for (std::size_t k = 0; k < those.size(); ++k)
@@ -260,6 +277,8 @@ Judgement judged(FoldColumns& rows, const Prepared& prepared, const Model& model
     mark_accidents(design, prepared, model, sizes, j);
     auto local = j.interpolates;
     local.flip();
+    for (std::size_t k = 0; k < local.size(); ++k)
+        if (bends_at_few_places(design, prepared, model, k)) local[k] = true;
     j.between_places = share_of_tables(sizes, local) <= rules::between_part;
     // More than noise may be whatever nothing that was found predicts: a wandering machine.
     const bool beyond_noise = std::max(nu2, j.before - j.floor * rank / design.rows()) > noise.most;

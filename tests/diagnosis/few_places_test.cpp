@@ -205,4 +205,20 @@ TEST_CASE("two neighbouring spoiled readings hide no error", "[diagnosis][few_pl
     CHECK(achieved(d, error_mm, 40.0) > 0.8);
 }
 
+TEST_CASE("a bend seen at four places holds at these alone, at five between them",
+          "[diagnosis][few_places]") {
+    for (const std::size_t places : {3, 4, 5, 6}) {
+        const Laser laser{even_places(places, 400.0), 3, 0.5e-3};
+        records::ReadingTable table = readings(
+            laser, [](double x) { return 20e-3 * (std::pow(x / 200.0 - 1.0, 2) - 0.5); }, 4);
+        for (records::Reading& row : table.rows) row.direction_M = Vector3(0, 1, 0);
+        const diagnosis::Diagnosis d =
+            diagnosis::diagnose(stage("noise_um = { linear = 0.5 }\n"), table);
+        INFO(places << " places: " << said(d));
+        REQUIRE_FALSE(d.causes.empty());
+        CHECK(d.causes.front().effect == "X.straightness");
+        CHECK(d.between_places == (places >= 5));
+    }
+}
+
 }  // namespace trunnion
