@@ -28,6 +28,7 @@
 #include "report/identification_page.h"
 #include "report/identification_report.h"
 #include "report/stores_text.h"
+#include "report/undetermined_stores.h"
 
 namespace trunnion::cli {
 namespace {
@@ -67,7 +68,10 @@ void print_stores(const setup::Setup& identified, const identification::Identifi
                                                   : Vector3(0, 0, -150);
     const auto stores = setup::stores_to_type(identified, identified.machine,
                                               identified.artefacts.front().center_W_mm, tip_S_mm);
-    if (stores) print_out("{}", report::stores_text(*stores, identified.dialect.family));
+    if (stores)
+        print_out("{}",
+                  report::stores_text(*stores, identified.dialect.family,
+                                      report::undetermined_stores(identified, result.parameters)));
 }
 
 /// Shows how far it is; a limit leaves what the repetitions done so far say.

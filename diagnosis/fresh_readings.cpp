@@ -200,6 +200,7 @@ FreshReadings::FreshReadings(const Prepared& prepared, std::uint64_t seed) {
                 identification::full_name(base.parameters[j]))
                 base_.col(static_cast<Eigen::Index>(j)) =
                     found.columns.col(static_cast<Eigen::Index>(k));
+    base_ = Eigen::MatrixXd(base_ * base.steps);
 }
 
 }  // namespace trunnion::diagnosis

@@ -5,11 +5,11 @@
 
 #include "diagnosis/doubted.h"
 #include "diagnosis/rules.h"
+#include "diagnosis/set_up_alone.h"
 #include "diagnosis/solution.h"
 #include "effects/settings.h"
 #include "estimation/free_form.h"
 #include "estimation/quantiles.h"
-#include "estimation/ranked_least_squares.h"
 
 namespace trunnion::diagnosis {
 namespace {
@@ -307,23 +307,6 @@ void choose(const Outcome& f, const Folds& paths, Written& w) {
 bool has_causes(const Outcome& f, const Model& model) {
     return std::any_of(model.members.begin(), model.members.end(),
                        [&](std::size_t m) { return is_cause(f.design.group(m).kind); });
-}
-
-/// The set-up fitted by least squares to all readings but lone ones: those that only a model which
-/// is not written sets aside belong to the gap.
-setup::Setup set_up_alone(const Outcome& f) {
-    const identification::BaseModel& base = f.prepared.base;
-    Eigen::VectorXd weight = base.sigma_mm.cwiseInverse();
-    for (std::size_t i = 0; i < f.beside_set_up.size(); ++i)
-        if (!f.beside_set_up[i]) weight(static_cast<Eigen::Index>(i)) = 0.0;
-    const Eigen::MatrixXd columns = weight.asDiagonal() * base.columns;
-    const Model none{{}, {{}, 1.0}, 0.0};
-    Solution solution = solved(f.design, none);
-    solution.mean =
-        estimation::solve_ranked(columns.transpose() * columns,
-                                 columns.transpose() * weight.cwiseProduct(base.residual_mm))
-            .value;
-    return setup_with(f.prepared, f.design, none, solution);
 }
 
 setup::Setup setup_of(const Outcome& f, const Model& model) {

@@ -55,11 +55,13 @@ LinearFit solve_ranked(const Eigen::MatrixXd& information, const Eigen::VectorXd
     fit.value = Eigen::VectorXd::Zero(p);
     fit.sigma = Eigen::VectorXd::Zero(p);
     fit.covariance = Eigen::MatrixXd::Zero(p, p);
+    fit.unseen.resize(p, 0);
     if (p == 0) return fit;
     const Directions d = directions_above(information, threshold * threshold);
     fit.value = d.seen * (d.seen.transpose() * gradient).cwiseQuotient(d.information);
     fit.covariance = d.inverse();
     fit.sigma = fit.covariance.diagonal().cwiseSqrt();
+    fit.unseen = d.unseen;
     if (d.unseen.cols() == 0) return fit;
     fit.null_space = sparse_basis(d.unseen.transpose());
     for (const Eigen::VectorXd& v : fit.null_space)

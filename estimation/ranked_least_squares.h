@@ -38,6 +38,9 @@ Directions directions_above(const Eigen::MatrixXd& information, double least, do
 /// for symmetries that are exact at another point of a nonlinear model.
 Directions directions_beside(const Eigen::MatrixXd& information, Eigen::Index unseen);
 
+/// Threshold of the rank, in sigma, and the information that it stands for.
+constexpr double unobservable = 0.05, unobservable_information = unobservable * unobservable;
+
 /// p unknowns, k unobservable directions.
 struct LinearFit {
     Eigen::VectorXd value;                    ///< p; the solution of smallest norm
@@ -46,14 +49,15 @@ struct LinearFit {
                                               ///< component
     std::vector<Eigen::VectorXd> null_space;  ///< k sparse vectors of p entries, largest entry 1;
                                               ///< entries below 1e-3 are zero
+    Eigen::MatrixXd unseen = {};              ///< p x k; the same directions, orthonormal
 };
 
 /// `information` = A'A (p x p, symmetric), `gradient` = A'y (p).
 LinearFit solve_ranked(const Eigen::MatrixXd& information, const Eigen::VectorXd& gradient,
-                       double threshold = 0.05);
+                       double threshold = unobservable);
 
 /// y'A x of that solution: the squared data that it explains.
 double explained(const Eigen::MatrixXd& information, const Eigen::VectorXd& gradient,
-                 double threshold = 0.05);
+                 double threshold = unobservable);
 
 }  // namespace trunnion::estimation

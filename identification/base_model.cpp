@@ -4,15 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <functional>
 
 #include "base/alarm.h"
 #include "base/rounded.h"
 #include "effects/settings.h"
-#include "emulator/device_noise.h"
 #include "estimation/ranked_least_squares.h"
+#include "identification/determined.h"
 #include "identification/plausible.h"
-#include "identification/resolution.h"
 #include "identification/unknowns.h"
 #include "identification/zero_scatter.h"
 
@@ -61,12 +60,20 @@ Eigen::VectorXd typical_of(const std::vector<Slot>& slots) {
     return typical;
 }
 
+/// For each unknown: true for an error of the machine, false for the set-up.
+std::vector<bool> of_machine(const std::vector<Slot>& slots) {
+    std::vector<bool> list;
+    for (const Slot& slot : slots) list.push_back(!slot.fit.of_set_up);
+    return list;
+}
+
 /// What the readings say of a step, in typical sizes.
 struct Equations {
     Eigen::MatrixXd information;
     Eigen::VectorXd gradient;
     Weighting weighting;
-    const Eigen::MatrixXd& to_unknowns;  ///< zeros_from_first
+    Eigen::MatrixXd weighted;     ///< columns, times the weights
+    Eigen::MatrixXd to_unknowns;  ///< steps_beside, then zeros_from_first
 };
 
 /// Applies a step (in the units of the parameters) unless it increases the misfit.
@@ -101,26 +108,6 @@ Eigen::VectorXd take_step(BaseModel& model, const emulator::Replay& replay,
         return step;
     }
     return Eigen::VectorXd::Zero(step.size());
-}
-
-/// Weight of each row: 1 / sigma, reduced for outliers (Huber at 3 sigma of the median). More than
-/// a tenth of the readings are no outliers, but part of what is fitted.
-Eigen::VectorXd row_weights(const BaseModel& model, const Eigen::VectorXd& r) {
-    std::vector<double> size;
-    for (Eigen::Index i = 0; i < r.size(); ++i) size.push_back(std::abs(r(i)) / model.sigma_mm(i));
-    std::vector<double> sorted = size;
-    std::nth_element(sorted.begin(), sorted.begin() + static_cast<long>(sorted.size() / 2),
-                     sorted.end());
-    const double limit = 3.0 * std::max(1.0, 1.4826 * sorted[sorted.size() / 2]);
-    Eigen::VectorXd weight = model.sigma_mm.cwiseInverse();
-    const auto beyond =
-        std::count_if(size.begin(), size.end(), [&](double s) { return s > limit; });
-    if (10 * beyond > r.size()) return weight;
-    for (Eigen::Index i = 0; i < r.size(); ++i) {
-        const double s = size[static_cast<std::size_t>(i)];
-        if (s > limit) weight(i) *= std::sqrt(limit / s);
-    }
-    return weight;
 }
 
 void take_measured(BaseModel& model, const records::ReadingTable& table,
@@ -187,24 +174,98 @@ bool far_from_solution(const estimation::LinearFit& fit) {
     return false;
 }
 
+/// What reads a setup, and its unknowns.
+struct ReadFrom {
+    const emulator::Replay& replay;
+    const std::vector<Slot>& slots;
+};
+
+/// Beside the directions `held`.
+Equations equations_of(const BaseModel& model, const ZeroScatter& zeros,
+                       const std::vector<Slot>& slots, const Eigen::MatrixXd& held) {
+    const Eigen::VectorXd weight = row_weights(model.residual_mm, model.sigma_mm);
+    const Eigen::MatrixXd a = weight.asDiagonal() * model.columns;
+    Equations e{zeros.product(a, a, weight),
+                zeros.product(a, weight.cwiseProduct(model.residual_mm), weight),
+                {zeros, weight},
+                a,
+                {}};
+    for (std::size_t j = 0; j < slots.size(); ++j)
+        add_prior(slots[j].fit, model.setup, static_cast<Eigen::Index>(j), e.information,
+                  e.gradient);
+    const Eigen::MatrixXd beside =
+        Eigen::MatrixXd::Identity(held.rows(), held.rows()) - held * held.transpose();
+    if (held.cols() > 0) {
+        e.information = Eigen::MatrixXd(beside * e.information * beside);
+        e.gradient = Eigen::VectorXd(beside * e.gradient);
+    }
+    return e;
+}
+
+/// Directions that the model's setup shows by accident (curved_directions), where the readings are
+/// `off` by so many sigmas along a direction; `off` is called with the weighted change by a step.
+Eigen::MatrixXd accidents(const BaseModel& model, const ReadFrom& from, const Equations& e,
+                          const std::function<double(const Eigen::VectorXd&)>& off) {
+    const Eigen::VectorXd typical = typical_of(from.slots), &weight = e.weighting.weight;
+    const auto left_by = [&](const Eigen::VectorXd& step) {
+        setup::Setup moved = model.setup;
+        apply_step(moved, from.slots, typical.cwiseProduct(e.to_unknowns * step));
+        return residual(model, from.replay, moved);
+    };
+    return curved_directions(e.information, [&](const Eigen::VectorXd& step) {
+        const Eigen::VectorXd d =
+            weight.cwiseProduct(0.5 * (left_by(step) + left_by(-step)) - model.residual_mm);
+        const ZeroScatter& zeros = e.weighting.zeros;
+        return Bend{zeros.product(e.weighted, d, weight), zeros.product(d, d, weight)(0, 0),
+                    off(e.weighted * step)};
+    });
+}
+
+/// Before the fit the residual says little: ten times the noise.
+Eigen::MatrixXd held_directions(const BaseModel& model, const ReadFrom& from,
+                                const ZeroScatter& zeros, const Eigen::MatrixXd& to_unknowns) {
+    const auto p = static_cast<Eigen::Index>(from.slots.size());
+    Equations e = equations_of(model, zeros, from.slots, Eigen::MatrixXd(p, 0));
+    e.to_unknowns = to_unknowns;
+    return accidents(model, from, e, [](const Eigen::VectorXd&) { return 10.0; });
+}
+
+/// Columns and steps of the model without what the readings do not determine: whoever fits its
+/// residual further leaves it where it is. That is what moves no reading, and that along which all
+/// that the fit leaves could be one large step.
+void leave_out(BaseModel& model, const ReadFrom& from, const Equations& e,
+               const Eigen::MatrixXd& unseen) {
+    constexpr double rounding = 1e-6;  // of a sigma
+    const double rest = e.weighting.weight.cwiseProduct(model.residual_mm).norm() /
+                        std::sqrt(static_cast<double>(model.residual_mm.size()));
+    const Eigen::MatrixXd far = accidents(model, from, e, [&](const Eigen::VectorXd& change) {
+        const double moved = change.squaredNorm() / change.cwiseAbs2().norm();  // root of a count
+        return 2.0 * std::max(1.0, rest) * moved;
+    });
+    Eigen::MatrixXd open(unseen.rows(), unseen.cols() + far.cols());
+    open << unseen, far;
+    model.steps = steps_beside(unseen, of_machine(from.slots)) *
+                  (Eigen::MatrixXd::Identity(open.rows(), open.rows()) - far * far.transpose());
+    if (open.cols() == 0) return;
+    model.columns -= Eigen::MatrixXd(model.columns * open) * open.transpose();
+    for (auto column : model.columns.colwise())
+        if (column.cwiseQuotient(model.sigma_mm).norm() < rounding) column.setZero();
+}
+
 /// Robust weights; the model's setup moves to the solution. Returns the last step's fit, in typical
 /// sizes.
 estimation::LinearFit iterate(BaseModel& model, const emulator::Replay& replay,
                               const ZeroScatter& zeros, const std::vector<Slot>& slots) {
     estimation::LinearFit fit;
-    const Eigen::MatrixXd to_unknowns = zeros_from_first(slots, replay, model.columns);
+    if (slots.empty()) return fit;
+    const Eigen::MatrixXd from_first = zeros_from_first(slots, replay, model.columns);
+    const Eigen::MatrixXd held = held_directions(model, {replay, slots}, zeros, from_first);
+    Eigen::MatrixXd to_unknowns;
     double damping = 0.0;
-    for (int pass = 0; pass < most_passes && !slots.empty(); ++pass) {
-        const Eigen::VectorXd weight = row_weights(model, model.residual_mm);
-        const Eigen::MatrixXd a = weight.asDiagonal() * model.columns;
-        Equations e{zeros.product(a, a, weight),
-                    zeros.product(a, weight.cwiseProduct(model.residual_mm), weight),
-                    {zeros, weight},
-                    to_unknowns};
-        for (std::size_t j = 0; j < slots.size(); ++j)
-            add_prior(slots[j].fit, model.setup, static_cast<Eigen::Index>(j), e.information,
-                      e.gradient);
+    for (int pass = 0; pass < most_passes; ++pass) {
+        Equations e = equations_of(model, zeros, slots, held);
         fit = estimation::solve_ranked(e.information, e.gradient);
+        e.to_unknowns = to_unknowns = from_first * steps_beside(fit.unseen, of_machine(slots));
         const Eigen::VectorXd step = take_step(model, replay, slots, e, damping);
         if (step.cwiseAbs().maxCoeff() < 1e-7) break;
     }
@@ -216,6 +277,9 @@ estimation::LinearFit iterate(BaseModel& model, const emulator::Replay& replay,
         if (const auto k = static_cast<Eigen::Index>(j);
             is_zero(slots[j].fit) && std::isfinite(fit.sigma(k)))
             fit.sigma(k) = std::sqrt(fit.covariance(k, k));
+    Equations last = equations_of(model, zeros, slots, held);
+    last.to_unknowns = to_unknowns;
+    leave_out(model, {replay, slots}, last, fit.unseen);
     return fit;
 }
 
@@ -250,52 +314,6 @@ std::string to_string(const Inseparable& group) {
         text += fmt::format("{:.3g} {}", std::abs(by), group.names[k]);
     }
     return text;
-}
-
-RowNoise stated_noise(const setup::Setup& setup, const records::ReadingTable& table,
-                      const emulator::Replay& replay) {
-    RowNoise noise;
-    noise.sigma_mm.resize(static_cast<Eigen::Index>(replay.size()));
-    for (std::size_t i = 0; i < replay.size(); ++i) {
-        const records::Reading& row = table.rows[replay.table_row(i)];
-        const emulator::DeviceNoise of_row = emulator::device_noise(setup.model, row);
-        noise.sigma_mm(static_cast<Eigen::Index>(i)) = of_row.sigma_mm;
-        noise.given = noise.given && of_row.given;
-    }
-    return noise;
-}
-
-RowNoise row_noise(const setup::Setup& setup, const records::ReadingTable& table,
-                   const emulator::Replay& replay) {
-    RowNoise noise = stated_noise(setup, table, replay);
-    add_rounding(table, replay, noise.sigma_mm);
-    add_rest_scatter(setup, table, replay, noise.sigma_mm);
-    return noise;
-}
-
-Eigen::VectorXd effect_column(const emulator::Replay& replay,
-                              const std::vector<kinematics::Perturbation>& gradient,
-                              const EffectTerm& term, const std::vector<std::size_t>& rows) {
-    const auto& [effect, values, parameter] = term;
-    std::vector<double> at = values;
-    for (std::size_t k = 0; k < at.size(); ++k)
-        if (!effect.parameters[k].is_key())
-            at[k] = k == parameter ? effect.parameters[k].typical : 0.0;
-    Eigen::VectorXd column(static_cast<Eigen::Index>(rows.size()));
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-        kinematics::Perturbation change;
-        effect.add(replay.sample(rows[k]), replay.contact(rows[k]), at, change);
-        column(static_cast<Eigen::Index>(k)) = emulator::dot(gradient[rows[k]], change);
-    }
-    return column;
-}
-
-Eigen::VectorXd effect_column(const emulator::Replay& replay,
-                              const std::vector<kinematics::Perturbation>& gradient,
-                              const EffectTerm& term) {
-    std::vector<std::size_t> rows(replay.size());
-    std::iota(rows.begin(), rows.end(), std::size_t{0});
-    return effect_column(replay, gradient, term, rows);
 }
 
 void add_effect(setup::Setup& setup, const effects::Effect& effect,
@@ -368,7 +386,7 @@ void shift_base(setup::Setup& setup, const BaseModel& base, const effects::Catal
         }
         slots.push_back(slot);
     }
-    Eigen::VectorXd by = step;
+    Eigen::VectorXd by = base.steps * step;
     for (Eigen::Index j = 0; j < by.size(); ++j)
         by(j) *= slots[static_cast<std::size_t>(j)].fit.typical;
     apply_step(setup, slots, by);

@@ -8,6 +8,8 @@
 
 #include "base/finite.h"
 #include "effects/catalogue.h"
+#include "identification/effect_column.h"
+#include "identification/row_noise.h"
 #include "identification/set_up.h"
 
 namespace trunnion::identification {
@@ -40,19 +42,6 @@ std::string full_name(const FitParameter& parameter);
 /// "1 dp_mm[y] - 1 dd_mm[y]": the change that no reading shows.
 std::string to_string(const Inseparable& group);
 
-/// Standard deviation of each device row, mm (rad for angular rows), and whether table or setup
-/// gave it for every row.
-struct RowNoise {
-    Eigen::VectorXd sigma_mm;
-    bool given = true;
-};
-/// As the rows or the setup state it, else the usual one: for readings that are simulated.
-RowNoise stated_noise(const setup::Setup& setup, const records::ReadingTable& table,
-                      const emulator::Replay& replay);
-/// The same, or what the record itself shows, if that is more (identification/resolution.h).
-RowNoise row_noise(const setup::Setup& setup, const records::ReadingTable& table,
-                   const emulator::Replay& replay);
-
 /// A replay with the fitted base, and all data for a linear analysis of its residuals. mm and rad.
 struct BaseModel {
     setup::Setup setup;  ///< fitted; loads again and gives the same predictions
@@ -62,7 +51,10 @@ struct BaseModel {
     std::vector<kinematics::Perturbation> gradient;  ///< derivatives of each device row with
                                                      ///< respect to a Perturbation
     Eigen::MatrixXd columns;  ///< derivative of each device row (row) by each parameter (column)
-                              ///< times its typical size, mm
+                              ///< times its typical size, mm; without directions that the readings
+                              ///< do not determine
+    Eigen::MatrixXd steps;    ///< times a step along the columns: the step of the parameters, in
+                              ///< typical sizes (identification/determined.h)
     Eigen::VectorXd measured_mm, residual_mm, start_residual_mm, sigma_mm;
     bool noise_given = true;
     Eigen::MatrixXd covariance;  ///< of the parameters, in their units; without unobservable
@@ -72,29 +64,14 @@ struct BaseModel {
 };
 
 /// Fits the base by Levenberg-Marquardt with Huber weights, at most 20 steps, ranked least squares
-/// in each (estimation/ranked_least_squares.h). Inseparable parameters keep the combination with
-/// the smallest change. Throws InputError when a device row has no value, and for implausible
-/// residuals (wrong units, frames or setup) unless they are declared as intended by `allow_large`
-/// of the setup's model or by a `sigma_mm` of the row; then they are noted.
+/// in each (estimation/ranked_least_squares.h). What the readings do not determine stays as
+/// declared, the machine before the set-up (identification/determined.h). Throws InputError when a
+/// device row has no value, and for implausible residuals (wrong units, frames or setup) unless
+/// they are declared as intended by `allow_large` of the setup's model or by a `sigma_mm` of the
+/// row; then they are noted.
 BaseModel fit_base(const setup::Setup& setup, const records::ReadingTable& table,
                    const emulator::Replay& replay, const effects::Catalogue& catalogue,
                    const std::vector<std::string>& effects);
-
-/// One linear parameter of an effect with the keys in `values`.
-struct EffectTerm {
-    const effects::Effect& effect;
-    const std::vector<double>& values;  ///< in the order of the parameters
-    std::size_t parameter;
-};
-/// Derivatives of the device rows with respect to a parameter, times its typical size; mm (rad for
-/// angular rows).
-Eigen::VectorXd effect_column(const emulator::Replay& replay,
-                              const std::vector<kinematics::Perturbation>& gradient,
-                              const EffectTerm& term);
-/// The same for a subset of the rows.
-Eigen::VectorXd effect_column(const emulator::Replay& replay,
-                              const std::vector<kinematics::Perturbation>& gradient,
-                              const EffectTerm& term, const std::vector<std::size_t>& rows);
 
 /// The unknowns of a replay with this setup and these effects, and their derivatives.
 struct BaseColumns {

@@ -15,10 +15,12 @@ int digits_of(double increment_mm) {
     return increment_mm < 9e-4 ? 4 : 3;
 }
 
-std::string line_text(const std::string& name, double now_mm, double type_mm, int digits) {
+std::string line_text(const std::string& name, double now_mm, double type_mm, int digits,
+                      bool open = false) {
     const double change_um = um_from_mm(type_mm - now_mm);
-    return fmt::format("  {:<22} {:>12.{}f} {:>12.{}f} {:>+11.1f}\n", name, now_mm + 0.0, digits,
-                       type_mm + 0.0, digits, std::abs(change_um) < 0.05 ? 0.0 : change_um);
+    return fmt::format("  {:<22} {:>12.{}f} {:>12.{}f} {:>+11.1f}{}\n", name, now_mm + 0.0, digits,
+                       type_mm + 0.0, digits, std::abs(change_um) < 0.05 ? 0.0 : change_um,
+                       open ? " *" : "");
 }
 
 /// Fields of the part set-up: two lines perpendicular to each axis, in machine coordinates.
@@ -39,20 +41,23 @@ std::string hurco_lines(const setup::StoresToType& s, int digits) {
     return text;
 }
 
-std::string fanuc_lines(const setup::StoresToType& s, int digits) {
+std::string fanuc_lines(const setup::StoresToType& s, int digits,
+                        const std::set<std::string>& open) {
     std::string text;
     for (const setup::StoreLine& line : s.lines)
         if (line.in_force.parameter != 0)
-            text +=
-                line_text("No." + line.in_force.name, line.in_force.value_mm, line.type_mm, digits);
+            text += line_text("No." + line.in_force.name, line.in_force.value_mm, line.type_mm,
+                              digits, open.contains(line.in_force.name));
     return text;
 }
 
-std::string centre_lines(const setup::StoresToType& s, int digits, const char* functions) {
+std::string centre_lines(const setup::StoresToType& s, int digits, const char* functions,
+                         const std::set<std::string>& open) {
     std::string text;
     for (const setup::StoreLine& line : s.lines)
         if (line.in_force.parameter == 0)
-            text += line_text(line.in_force.name, line.in_force.value_mm, line.type_mm, digits);
+            text += line_text(line.in_force.name, line.in_force.value_mm, line.type_mm, digits,
+                              open.contains(line.in_force.name));
     for (const setup::StoreLine& line : s.fixture)
         text += line_text(line.in_force.name, line.in_force.value_mm, line.type_mm, digits);
     if (text.empty()) return text;
@@ -64,14 +69,22 @@ std::string centre_lines(const setup::StoresToType& s, int digits, const char* f
 
 }  // namespace
 
-std::string stores_text(const setup::StoresToType& s, interpreter::DialectFamily dialect) {
+std::string stores_text(const setup::StoresToType& s, interpreter::DialectFamily dialect,
+                        const std::set<std::string>& open) {
     const int digits = digits_of(s.increment_mm);
     const bool hurco = dialect == interpreter::DialectFamily::hurco &&
                        s.in_force.pivot.unit == offsets::MechanicalUnit::table_table;
     std::string text =
         fmt::format("{:<24} {:>12} {:>12} {:>11}\n", hurco ? "part set-up (assumed)" : "to type",
                     "in force / mm", "type / mm", "change / µm");
-    text += hurco ? hurco_lines(s, digits) : fanuc_lines(s, digits);
+    text += hurco ? hurco_lines(s, digits) : fanuc_lines(s, digits, open);
+    if (!open.empty())
+        text +=
+            hurco ? "  These readings do not determine all of them (sigma –): such a value is as\n"
+                    "  declared, or a share of a sum.\n"
+                  : "  * These readings do not determine it (sigma –): it is as declared, or a "
+                    "share\n"
+                    "    of a sum.\n";
     text += fmt::format(
         "  tip off on the table: {} now; after typing {} by tilts of the axes\n"
         "  (no place in these numbers), {} by the increment of {:g} mm\n",
@@ -79,7 +92,7 @@ std::string stores_text(const setup::StoresToType& s, interpreter::DialectFamily
         s.increment_mm);
     const bool has_g54_2 = dialect != interpreter::DialectFamily::hurco;
     const char* const functions = has_g54_2 ? "DPP or G54.2" : "DPP";
-    const std::string centre = centre_lines(s, digits, functions);
+    const std::string centre = centre_lines(s, digits, functions, open);
     if (centre.empty()) return text;
     text += centre + fmt::format("  tip off with {}: {} now, {} after typing", functions,
                                  length_words(s.g54_now_um), length_words(s.g54_left_um));

@@ -1,0 +1,42 @@
+#include "diagnosis/set_up_alone.h"
+
+#include "diagnosis/solution.h"
+#include "estimation/ranked_least_squares.h"
+
+namespace trunnion::diagnosis {
+namespace {
+
+/// What the set-up leaves of the readings. That of the base is straightened for the model that was
+/// found: causes of degrees bend the readings, and where they are not written nothing bends.
+Eigen::VectorXd left_by_set_up(const Prepared& p) {
+    const setup::Setup& setup = p.base.setup;
+    const std::vector<double> read =
+        p.replay.predict(setup.machine, identification::offsets_to(p.replay, setup), p.base.models);
+    return p.base.measured_mm -
+           Eigen::Map<const Eigen::VectorXd>(read.data(), p.base.measured_mm.size());
+}
+
+}  // namespace
+
+setup::Setup set_up_alone(const Outcome& f) {
+    const identification::BaseModel& base = f.prepared.base;
+    Eigen::VectorXd weight = base.sigma_mm.cwiseInverse();
+    for (std::size_t i = 0; i < f.beside_set_up.size(); ++i)
+        if (!f.beside_set_up[i]) weight(static_cast<Eigen::Index>(i)) = 0.0;
+    const Eigen::MatrixXd columns = weight.asDiagonal() * base.columns;
+    Eigen::MatrixXd information = columns.transpose() * columns;
+    Eigen::VectorXd product = columns.transpose() * weight.cwiseProduct(left_by_set_up(f.prepared));
+    for (std::size_t j = 0; j < base.parameters.size(); ++j)
+        if (const identification::FitParameter& q = base.parameters[j]; q.prior_sigma > 0.0) {
+            const auto k = static_cast<Eigen::Index>(j);
+            const double pull = q.typical / q.prior_sigma;
+            information(k, k) += pull * pull;
+            product(k) += pull * (q.prior_value - q.value) / q.prior_sigma;
+        }
+    const Model none{{}, {{}, 1.0}, 0.0};
+    Solution solution = solved(f.design, none);
+    solution.mean = estimation::solve_ranked(information, product).value;
+    return setup_with(f.prepared, f.design, none, solution);
+}
+
+}  // namespace trunnion::diagnosis
