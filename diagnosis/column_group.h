@@ -57,7 +57,8 @@ struct ColumnGroup {
     TableForm table;
     bool is_line = false;  ///< the functions that a table at knots leaves to the textbook form; it
                            ///< stands in no model
-    bool of_cycles = false;              ///< offset: the zeros of cycles within a laser test
+    std::vector<double> open_keys;  ///< of a ripple: other keys that the likelihood leaves open
+    bool of_cycles = false;         ///< offset: the zeros of cycles within a laser test
     std::vector<Eigen::Index> features;  ///< columns of the design that the group combines
     Eigen::MatrixXd shape;               ///< features x columns; empty: one column for each feature
     /// Values of the features for coefficients of the columns.

@@ -107,6 +107,10 @@ class Design {
     void favour(std::size_t group, double log_prior) {
         groups_[group].group.log_prior += log_prior;
     }
+    /// Names other keys of a ripple, which may be true as well.
+    void leave_open(std::size_t group, std::vector<double> keys) {
+        groups_[group].group.open_keys = std::move(keys);
+    }
     /// The same as hide(), but it may be named as a rival.
     void keep_as_rival(std::size_t group) {
         groups_[group].hidden = groups_[group].only_rival = true;

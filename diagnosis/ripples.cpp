@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/units.h"
+#include "diagnosis/places.h"
 #include "diagnosis/rules.h"
 
 namespace trunnion::diagnosis {
@@ -14,12 +15,6 @@ constexpr std::size_t least_places = 8;
 constexpr double least_turns = 2.0, most_hole = 0.4, least_spacings = 2.0, least_outside = 0.2;
 /// Of a spike: one that does not decay on the way between two readings is a backlash.
 constexpr double least_other = 0.01;
-/// On a grid of fewer positions a ripple whose period is not unique is never claimed: it has half
-/// as many frequencies as positions, and one of them resembles an error of any shape.
-constexpr std::size_t many_places = 3 * least_places;
-/// Of the period that was found: a ripple so much finer that has the same values at all places is
-/// improbable, because the prior falls with the number of periods in a turn.
-constexpr double far_finer = 1.0 / 8.0;
 constexpr double same_frequency = 1e-3;  ///< cycles in one step of a grid
 /// Keys with the same values that are listed. A step of 20 m reaches it; a wild coordinate of
 /// 1e9 mm would have some 1e9 of them.
@@ -100,11 +95,9 @@ std::vector<double> distinct(std::vector<double> places) {
     return places;
 }
 
-std::vector<double> positions_of(const Prepared& prepared, Axis axis) {
-    std::vector<double> places;
-    for (std::size_t i = 0; i < prepared.replay.size(); ++i)
-        places.push_back(prepared.replay.sample(i).position[axis]);
-    return places;
+/// Positions at which readings tell the error of an axis.
+std::vector<double> places_for(const Prepared& prepared, Axis axis) {
+    return positions_at(telling_places(prepared, axis));
 }
 
 double frequency_on_grid(double step, double period) {
@@ -144,21 +137,6 @@ void take_longest_period(const std::vector<double>& places, const Ripple& ripple
         if (ripple.period_of(alias) > ripple.period_of(keys[ripple.key])) keys[ripple.key] = alias;
 }
 
-/// True where one of the periods that look alike at these positions is that of a usual lead or pole
-/// pitch: a multiple of 0.5 mm or of an eighth of an inch, 2 mm or more.
-bool may_be_usual(const Prepared& prepared, const Ripple& ripple) {
-    constexpr double near = 1e-3, least_mm = 2.0, steps_mm[] = {0.5, 25.4 / 8.0};
-    std::vector<double> periods{ripple.period};
-    if (const double step = step_of(distinct(positions_of(prepared, ripple.axis))); step > 0.0)
-        periods = aliases_on(step, ripple);
-    return std::any_of(periods.begin(), periods.end(), [&](double period) {
-        return std::any_of(std::begin(steps_mm), std::end(steps_mm), [&](double step_mm) {
-            return period >= least_mm * (1.0 - near) &&
-                   std::abs(std::remainder(period, step_mm)) < near * period;
-        });
-    });
-}
-
 /// Features of the textbook effects of the same axis.
 std::vector<Eigen::Index> of_axis(const Design& design, const effects::Effect& effect) {
     std::vector<Eigen::Index> features;
@@ -181,7 +159,7 @@ bool separable(const Design& design, std::size_t group, const std::vector<Eigen:
 /// Other keys of a ripple with the same values at all positions.
 std::vector<double> other_periods(const Prepared& prepared, const Ripple& ripple,
                                   const std::vector<double>& keys) {
-    const double step = step_of(distinct(positions_of(prepared, ripple.axis)));
+    const double step = step_of(places_for(prepared, ripple.axis));
     if (step == 0.0) return {};
     std::vector<double> list = aliases_on(step, ripple);
     const double own = keys[ripple.key];
@@ -201,6 +179,21 @@ bool shows_period(std::vector<double> places, double period) {
     return period >= least_spacings * grid_step(places);
 }
 
+bool may_be_usual(const effects::Effect& effect, const std::vector<double>& keys,
+                  const std::vector<double>& others) {
+    constexpr double near = 1e-3, least_mm = 2.0, steps_mm[] = {0.5, 25.4 / 8.0};
+    const auto ripple = ripple_of(effect, keys);
+    if (!ripple || ripple->counts) return true;
+    std::vector<double> periods = others;
+    periods.push_back(ripple->period);
+    return std::any_of(periods.begin(), periods.end(), [&](double period) {
+        return std::any_of(std::begin(steps_mm), std::end(steps_mm), [&](double step_mm) {
+            return period >= least_mm * (1.0 - near) &&
+                   std::abs(std::remainder(period, step_mm)) < near * period;
+        });
+    });
+}
+
 std::vector<double> equal_periods(const Prepared& prepared, const effects::Effect& effect,
                                   const std::vector<double>& keys) {
     const auto ripple = ripple_of(effect, keys);
@@ -214,34 +207,37 @@ std::vector<double> equal_periods(const Prepared& prepared, const effects::Effec
 bool shows_two_phases(const Prepared& prepared, const effects::Effect& effect,
                       const std::vector<double>& keys) {
     const auto ripple = ripple_of(effect, keys);
-    return ripple &&
-           alternates(step_of(distinct(positions_of(prepared, ripple->axis))), ripple->period);
+    return ripple && alternates(step_of(places_for(prepared, ripple->axis)), ripple->period);
 }
 
 std::size_t place_count(const Prepared& prepared, Axis axis) {
-    return distinct(positions_of(prepared, axis)).size();
+    std::vector<double> places;
+    for (std::size_t i = 0; i < prepared.replay.size(); ++i)
+        places.push_back(prepared.replay.sample(i).position[axis]);
+    return distinct(std::move(places)).size();
 }
 
 double chance_of_period(const Prepared& prepared, const effects::Effect& effect,
                         const std::vector<double>& keys, double part) {
     const auto ripple = ripple_of(effect, keys);
     if (!ripple) return 0.0;
-    const std::vector<double> places = distinct(positions_of(prepared, ripple->axis));
+    const std::vector<double> places = places_for(prepared, ripple->axis);
     const auto count = static_cast<double>(places.size());
+    const double free = 0.5 * (count - 3.0);  // mean, cosine and sine are fitted
+    if (free <= 0.0) return 1.0;
     const auto [least, most] = std::minmax_element(ripple->offered.begin(), ripple->offered.end());
     const double range = places.back() - places.front(), step = step_of(places);
     double periods = ripple->counts ? *most : range / *least;
     if (step > 0.0) periods = std::min(periods, 0.5 * (range / step + 1.0));
-    const double free = 0.5 * (count - 3.0);  // mean, cosine and sine are fitted
-    return free > 0.0 ? std::min(1.0, periods * std::pow(1.0 - part, free)) : 1.0;
+    return std::min(1.0, periods * std::pow(1.0 - part, free));
 }
 
 void add_unresolved_ripple(Design& design, const Prepared& prepared, const Whitener& whitener,
                            const effects::Effect& effect, std::vector<double> keys) {
     const auto ripple = ripple_of(effect, keys);
-    if (!ripple || distinct(positions_of(prepared, ripple->axis)).size() < least_places) return;
-    const double odd =
-        ripple->counts || may_be_usual(prepared, *ripple) ? 0.0 : rules::odd_period_prior;
+    if (!ripple || places_for(prepared, ripple->axis).size() < least_places) return;
+    const bool usual = may_be_usual(effect, keys, other_periods(prepared, *ripple, keys));
+    const double odd = usual ? 0.0 : rules::odd_period_prior;
     const auto added = add_keyed_group(design, prepared, whitener, effect, std::move(keys));
     if (!added) return;
     design.favour(*added, odd);
@@ -254,7 +250,7 @@ std::optional<std::size_t> add_ripple_or_other(Design& design, const Prepared& p
                                                std::vector<double> keys) {
     auto ripple = ripple_of(effect, keys);
     if (ripple) {
-        const std::vector<double> places = distinct(positions_of(prepared, ripple->axis));
+        const std::vector<double> places = places_for(prepared, ripple->axis);
         take_longest_period(places, *ripple, keys);
         ripple->period = ripple->period_of(keys[ripple->key]);
         const bool unique = other_periods(prepared, *ripple, keys).empty();

@@ -7,6 +7,14 @@
 
 namespace trunnion::diagnosis {
 
+/// On a grid of fewer positions a ripple whose period is not unique is never claimed: it has half
+/// as many frequencies as positions, and one of them resembles an error of any shape.
+inline constexpr std::size_t many_places = 24;
+
+/// Of the period that was found: a ripple so much finer that has the same values at all places is
+/// improbable, because the prior falls with the number of periods in a turn.
+inline constexpr double far_finer = 1.0 / 8.0;
+
 /// A period (mm or rad) is resolved by at least 8 distinct positions over at least two periods,
 /// without a gap in the phase above 0.4 of a period and, if all positions are on an equidistant
 /// grid, with at least two of its steps in a period. On a grid of 24 positions or more exactly two
@@ -29,8 +37,15 @@ bool shows_two_phases(const Prepared& prepared, const effects::Effect& effect,
 /// that the places tell apart may fit. 0 for other effects.
 double chance_of_period(const Prepared& prepared, const effects::Effect& effect,
                         const std::vector<double>& keys, double part);
-/// Number of different positions of an axis.
+
+/// Number of different positions of an axis, whatever is read there.
 std::size_t place_count(const Prepared& prepared, Axis axis);
+
+/// True for a ripple of which the period, or one of the other keys, is that of a usual lead or pole
+/// pitch: a multiple of 0.5 mm or of an eighth of an inch, 2 mm or more; always for one that counts
+/// periods in a turn.
+bool may_be_usual(const effects::Effect& effect, const std::vector<double>& keys,
+                  const std::vector<double>& others);
 
 /// Adds a ripple that the positions of its axis do not resolve as a possible rival: no model
 /// contains it, but what another effect explains may be this one. Not for fewer than 8 positions,

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/units.h"
+#include "diagnosis/alike_periods.h"
 #include "diagnosis/candidate_groups.h"
 #include "diagnosis/changes.h"
 #include "diagnosis/machine_jump.h"
@@ -185,8 +186,7 @@ Model carried_over(const Searched& earlier, Design& design, const Prepared& p,
         if (group.kind == GroupKind::periodic)
             at = add_keyed_group(design, p, whitener, *group.effect, group.keys);
         for (std::size_t g = 0; !at && g < design.groups().size(); ++g)
-            if (same_cause(design.group(g), group) &&
-                design.group(g).is_whole == group.is_whole &&
+            if (same_cause(design.group(g), group) && design.group(g).is_whole == group.is_whole &&
                 design.group(g).parameters == group.parameters &&
                 design.group(g).shape.rows() == group.shape.rows() &&
                 (group.kind != GroupKind::table ||
@@ -269,6 +269,9 @@ Searched search_of(const Prepared& p, const Round& round, KeySearch& keys, const
         model = settled(design, setting, grown(design, setting, std::move(model)));
         if (model.score < before + 1.0) break;
     }
+    if (!setting.stopped())
+        model =
+            without_open_ripples({p, whitener, design, setting, round.sigma_mm}, std::move(model));
     model = with_whole_drivers(design, setting, std::move(model));
     FoldColumns rows(design, {p.folds, round.used});
     model = without_idle_members(rows, setting, std::move(model));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/places.h"
 #include "diagnosis/ripples.h"
 #include "diagnosis/rules.h"
 #include "estimation/distributions.h"
@@ -102,7 +103,8 @@ void mark_accidents(const Design& design, const Prepared& prepared, const Model&
         const ColumnGroup& group = design.group(model.members[k]);
         if (group.kind != GroupKind::periodic || !group.effect->axis) continue;
         const Axis axis = *group.effect->axis;
-        const double noise = sizes.floor * static_cast<double>(place_count(prepared, axis));
+        const double noise =
+            sizes.floor * static_cast<double>(telling_places(prepared, axis).size());
         const double others = noise + square_of_places(design, model, sizes, j, axis);
         const double part = sizes.square[k] / (sizes.square[k] + others);
         if (chance_of_period(prepared, *group.effect, group.keys, part) > rare)
@@ -125,6 +127,14 @@ bool bends_at_few_places(const Design& design, const Prepared& prepared, const M
            place_count(prepared, axis) < rules::bend_places &&
            (group.columns() > 1 || group.effect->kind == effects::EffectKind::straightness ||
             std::any_of(model.members.begin(), model.members.end(), bends));
+}
+
+/// Other periods of a ripple: those with the same values at all places, or those that the
+/// likelihood leaves open.
+std::vector<double> other_periods_of(const Prepared& prepared, const ColumnGroup& group) {
+    if (group.kind != GroupKind::periodic) return {};
+    std::vector<double> equal = equal_periods(prepared, *group.effect, group.keys);
+    return equal.empty() ? group.open_keys : equal;
 }
 
 double share_of_tables(const Sizes& sizes, const std::vector<bool>& those) {
@@ -264,9 +274,7 @@ Judgement judged(FoldColumns& rows, const Prepared& prepared, const Model& model
         rest[k] = rest_predicting[k] = false;
         j.support.push_back({saving_of(left.loss(rest, rest_predicting), after)});
         const ColumnGroup& group = design.group(model.members[k]);
-        j.equal_periods.push_back(group.kind == GroupKind::periodic
-                                      ? equal_periods(prepared, *group.effect, group.keys)
-                                      : std::vector<double>{});
+        j.equal_periods.push_back(other_periods_of(prepared, group));
         const bool alternates = group.kind == GroupKind::periodic &&
                                 shows_two_phases(prepared, *group.effect, group.keys);
         j.interpolates.push_back(
