@@ -258,7 +258,7 @@ Model without_open_ripples(const RippleSearch& s, Model model) {
         const effects::Effect* effect = s.design.group(member).effect;
         const auto places = telling_places(s.prepared, *effect->axis);
         if (alike.empty() ||
-            std::round(effective_count(places)) >= static_cast<double>(many_places)) {
+            std::round(effective_count(places)) >= static_cast<double>(many_on_grid)) {
             s.design.leave_open(member, std::move(alike));
             ++k;
             continue;

@@ -174,7 +174,7 @@ bool shows_period(std::vector<double> places, double period) {
     if (places.size() < least_places) return false;
     if (places.back() - places.front() < least_turns * period) return false;
     // A full step of a motor: every second position is off, and they are many.
-    if (alternates(grid_step(places), period) && places.size() >= many_places) return true;
+    if (alternates(grid_step(places), period) && places.size() >= many_on_grid) return true;
     if (largest_hole(places, period) > most_hole) return false;
     return period >= least_spacings * grid_step(places);
 }
@@ -255,7 +255,7 @@ std::optional<std::size_t> add_ripple_or_other(Design& design, const Prepared& p
         ripple->period = ripple->period_of(keys[ripple->key]);
         const bool unique = other_periods(prepared, *ripple, keys).empty();
         if (!shows_period(places, ripple->period_of(keys[ripple->key])) ||
-            (!unique && places.size() < many_places))
+            (!unique && places.size() < many_on_grid))
             return std::nullopt;
     }
     const auto added = add_keyed_group(design, prepared, whitener, effect, std::move(keys));

@@ -9,7 +9,7 @@ namespace trunnion::diagnosis {
 
 /// On a grid of fewer positions a ripple whose period is not unique is never claimed: it has half
 /// as many frequencies as positions, and one of them resembles an error of any shape.
-inline constexpr std::size_t many_places = 24;
+inline constexpr std::size_t many_on_grid = 24;
 
 /// Of the period that was found: a ripple so much finer that has the same values at all places is
 /// improbable, because the prior falls with the number of periods in a turn.

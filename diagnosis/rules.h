@@ -43,6 +43,7 @@ constexpr double between_part = 0.2;   ///< maximum part of the gap carried by t
 constexpr double between_least = 0.5;  ///< part that a table must predict at left-out positions
 
 constexpr std::size_t bend_places = 5;  ///< from which a bend of known form holds between them
+                                        ///< (assumed)
 constexpr double many_places = 8.0;     ///< ... of fewer with this probability of no accident
 constexpr double between_sure = 0.8;
 
@@ -52,6 +53,7 @@ constexpr double most_own = 3.0;      ///< maximum squared sum of contributions 
 constexpr double main_family = 0.6;   ///< share of an axis's free forms; if smaller, none is named
 
 constexpr double enormous = 30.0;  ///< typical sizes: a cause beyond is not written unless claimed
+                                   ///< (assumed)
 
 constexpr double most_scatter = 4.0;    ///< of repeats, relative to what is stated: more is a gap
 constexpr double most_outliers = 0.04;  ///< of the readings: more are a gap of some kind

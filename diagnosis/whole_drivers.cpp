@@ -1,5 +1,6 @@
 #include "diagnosis/whole_drivers.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace trunnion::diagnosis {
@@ -13,6 +14,20 @@ std::optional<std::size_t> whole_of(const Design& design, std::size_t driver) {
     return std::nullopt;
 }
 
+/// The model with one of its drivers whole, where that is more likely.
+std::optional<Model> with_one_whole(Design& design, const SearchSetting& setting,
+                                    const Model& model) {
+    for (std::size_t k = 0; k < model.members.size() && !setting.stopped(); ++k) {
+        const std::optional<std::size_t> whole = whole_of(design, model.members[k]);
+        if (!whole || std::count(model.members.begin(), model.members.end(), *whole) > 0) continue;
+        Model trial = model;
+        trial.members[k] = *whole;
+        trial = pruned(design, setting, tuned(design, setting, std::move(trial), 3));
+        if (evidence(design, trial) >= evidence(design, model) + better) return trial;
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
 void add_whole(Design& design, ColumnGroup driver) {
@@ -21,15 +36,11 @@ void add_whole(Design& design, ColumnGroup driver) {
 }
 
 Model with_whole_drivers(Design& design, const SearchSetting& setting, Model model) {
-    for (std::size_t k = 0; k < model.members.size() && !setting.stopped(); ++k) {
-        const std::optional<std::size_t> whole = whole_of(design, model.members[k]);
-        if (!whole) continue;
-        Model trial = model;
-        trial.members[k] = *whole;
-        trial = pruned(design, setting, tuned(design, setting, std::move(trial), 3));
-        if (evidence(design, trial) < evidence(design, model) + better) continue;
-        model = settled(design, setting, std::move(trial));
-        k = 0;
+    constexpr int most = 4;  // after each the search may take another driver
+    for (int k = 0; k < most; ++k) {
+        std::optional<Model> better_one = with_one_whole(design, setting, model);
+        if (!better_one) break;
+        model = settled(design, setting, std::move(*better_one));
     }
     return model;
 }

@@ -8,7 +8,7 @@ namespace trunnion::report {
 
 std::set<std::string> undetermined_stores(
     const setup::Setup& setup, const std::vector<identification::FitParameter>& parameters) {
-    constexpr double noticed = 1e-3;  // of the change of the location
+    constexpr double noticed_mm = 1e-6;  // by a typical change of the location: less is arithmetic
     std::set<std::string> names;
     const auto in_force = setup::rotary_stores(setup.machine.chain, setup.stores);
     if (!in_force) return names;
@@ -19,7 +19,7 @@ std::set<std::string> undetermined_stores(
         other.errors.location(*p.location) += p.typical;
         const auto as_well = setup::store_numbers(setup::right_stores(other, *in_force));
         for (std::size_t k = 0; k < as_found.size(); ++k)
-            if (std::abs(as_well[k].value_mm - as_found[k].value_mm) > noticed * p.typical)
+            if (std::abs(as_well[k].value_mm - as_found[k].value_mm) > noticed_mm)
                 names.insert(as_found[k].name);
     }
     return names;

@@ -146,6 +146,30 @@ TEST_CASE("what is many times the usual size is written only where it is claimed
         }
 }
 
+// Without the table that is not written, a play takes its place, because it looks like it a little.
+TEST_CASE("what becomes many times the usual size where another cause is not written goes, too",
+          "[diagnosis][written]") {
+    Rows rows;
+    const Eigen::MatrixXd table = rows.noise(1);
+    for (const double size : {0.5, 2.0}) {
+        diagnosis::Design design = rows.design(5.0 * table.col(0) + rows.noise(1).col(0));
+        const Eigen::MatrixXd like_it =
+            (5.0 * table + rows.noise(1)) / (size * diagnosis::rules::enormous);
+        const std::size_t play =
+            add(design, of_kind(GroupKind::textbook, &rows.effect("C.backlash")), like_it);
+        const std::size_t form = add(design, of_kind(GroupKind::table, nullptr), table);
+        diagnosis::Model model = fitted(design, {form});
+        model.members.push_back(play);
+        model.variances.tau.push_back(1e-3);
+        diagnosis::Judgement judgement = judged(rows, design, model);
+        judgement.interpolates = {false, true};
+        INFO(size << " of the limit");
+        REQUIRE(diagnosis::usual_sizes(design, model)[1] < 1.0);
+        const auto list = written(rows, design, model, judgement);
+        CHECK((std::find(list.begin(), list.end(), play) != list.end()) == (size < 1.0));
+    }
+}
+
 TEST_CASE("a cause that removes less than half of the gap is not written", "[diagnosis][written]") {
     Rows rows;
     const Eigen::MatrixXd backlash = rows.noise(1);
