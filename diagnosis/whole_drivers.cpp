@@ -1,10 +1,13 @@
 #include "diagnosis/whole_drivers.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace trunnion::diagnosis {
 namespace {
+
+constexpr double exact = 1.001;  ///< of the least noise
 
 std::optional<std::size_t> whole_of(const Design& design, std::size_t driver) {
     const ColumnGroup& held = design.group(driver);
@@ -14,16 +17,27 @@ std::optional<std::size_t> whole_of(const Design& design, std::size_t driver) {
     return std::nullopt;
 }
 
+/// True for a model that is more likely. Of readings without noise the evidence is arithmetic, or no
+/// number: there the score decides.
+bool is_more_likely(Design& design, const Model& one, const Model& other) {
+    constexpr double arithmetic = 1e9;  // nats
+    const double gained = evidence(design, one) - evidence(design, other);
+    const bool is_evidence = std::abs(gained) < arithmetic;  // false for no number, too
+    return (is_evidence ? gained : one.score - other.score) >= better;
+}
+
 /// The model with one of its drivers whole, where that is more likely.
 std::optional<Model> with_one_whole(Design& design, const SearchSetting& setting,
                                     const Model& model) {
+    // What explains the readings to the last digit needs no other driver.
+    if (model.variances.nu <= exact * setting.noise.least) return std::nullopt;
     for (std::size_t k = 0; k < model.members.size() && !setting.stopped(); ++k) {
         const std::optional<std::size_t> whole = whole_of(design, model.members[k]);
         if (!whole || std::count(model.members.begin(), model.members.end(), *whole) > 0) continue;
         Model trial = model;
         trial.members[k] = *whole;
         trial = pruned(design, setting, tuned(design, setting, std::move(trial), 3));
-        if (evidence(design, trial) >= evidence(design, model) + better) return trial;
+        if (is_more_likely(design, trial, model)) return trial;
     }
     return std::nullopt;
 }
