@@ -17,8 +17,8 @@ std::optional<std::size_t> whole_of(const Design& design, std::size_t driver) {
     return std::nullopt;
 }
 
-/// True for a model that is more likely. Of readings without noise the evidence is arithmetic, or no
-/// number: there the score decides.
+/// True for a model that is more likely. Of readings without noise the evidence is arithmetic, or
+/// no number: there the score decides.
 bool is_more_likely(Design& design, const Model& one, const Model& other) {
     constexpr double arithmetic = 1e9;  // nats
     const double gained = evidence(design, one) - evidence(design, other);
