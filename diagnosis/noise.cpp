@@ -90,6 +90,18 @@ std::size_t longest_of_pass(const emulator::Replay& replay) {
     return std::clamp<std::size_t>(count / blocks, 1, longest);
 }
 
+/// True when an axis reversed after the approaches of a pass: the way back is another pass.
+bool turned_back(const emulator::Replay& replay, const records::ReadingTable& table,
+                 const std::vector<Eigen::Index>& visit, std::size_t i) {
+    constexpr std::size_t least = 3;  // readings; targets in random order are approached at will
+    if (visit.size() < least) return false;
+    const auto last = static_cast<std::size_t>(visit.back());
+    return std::any_of(table.axes.begin(), table.axes.end(), [&](Axis axis) {
+        return replay.sample(last).travel[index_of(axis)] !=
+               replay.sample(i).travel[index_of(axis)];
+    });
+}
+
 /// True when reading i continues a visit, that is the readings of one pose of a probe or target, or
 /// of one approach of a pass: they share an error. A pose that is left and taken again has another.
 bool continues(const emulator::Replay& replay, const records::ReadingTable& table,
@@ -138,7 +150,8 @@ std::vector<NoiseBlock> noise_blocks(const emulator::Replay& replay,
         if (same && row.device != records::Device::ballbar && row.device != records::Device::axis) {
             const std::vector<Eigen::Index>& visit = blocks[it->second].rows;
             same = static_cast<std::size_t>(visit.back()) + 1 == i &&
-                   !(reads_targets(row.device) && visit.size() >= of_pass) &&
+                   !(reads_targets(row.device) &&
+                     (visit.size() >= of_pass || turned_back(replay, table, visit, i))) &&
                    continues(replay, table, visit, i);
         }
         if (!same) {

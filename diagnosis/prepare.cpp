@@ -13,6 +13,7 @@
 #include "diagnosis/cycles.h"
 #include "diagnosis/holdout_zeros.h"
 #include "diagnosis/machine_jump.h"
+#include "diagnosis/target_visits.h"
 #include "identification/index_errors.h"
 #include "identification/plausible.h"
 #include "identification/resolution.h"
@@ -182,6 +183,7 @@ Prepared::Prepared(const setup::Setup& setup, const records::ReadingTable& readi
     cycle = cycles_of(replay, table);
     rounding_mm = identification::rounding(table, replay);
     folds = make_folds(blocks, replay.size());
+    spread_visits(blocks, replay, table, folds);
     join_targets(blocks, replay, table, folds);
 }
 

@@ -172,6 +172,29 @@ TEST_CASE("a ripple at many uneven places is one between them, too", "[diagnosis
     }
 }
 
+TEST_CASE("five places of one run up and down beside a longer test are explained there",
+          "[diagnosis][few_places]") {
+    const auto at_mm = even_places(5, 900.0);
+    for (unsigned seed = 1; seed <= 8; ++seed) {
+        records::ReadingTable table = readings(
+            {even_places(5, 600.0), 3, 3e-4}, [](double) { return 0.0; }, seed);
+        const records::ReadingTable across =
+            readings({at_mm, 1, 3e-4}, rough(0.015, at_mm, seed), seed + 100);
+        for (records::Reading row : across.rows) {
+            row.index = static_cast<int>(table.rows.size());
+            row.time_s += 7200.0;
+            std::swap(row.commanded[Axis::X], row.commanded[Axis::Y]);
+            row.test = "Y in X";
+            table.rows.push_back(row);
+        }
+        const diagnosis::Diagnosis d = diagnosed(table);
+        INFO(seed << '\n' << said(d));
+        CHECK(d.explained > 0.9);
+        REQUIRE_FALSE(d.causes.empty());
+        CHECK(d.causes.front().effect == "Y.straightness");
+    }
+}
+
 TEST_CASE("repeats that agree with each other and not with the simulation are a gap",
           "[diagnosis][few_places]") {
     const auto at_mm = even_places(6, 150.0);

@@ -1,11 +1,14 @@
 // Which readings share the error of a pose: one visit, not the same place taken again.
 #include <catch2/catch.hpp>
+#include <map>
 #include <set>
 
 #include "base/random.h"
 #include "diagnosis/noise.h"
 #include "diagnosis/prepare.h"
+#include "diagnosis/target_visits.h"
 #include "tests/support/campaign.h"
+#include "tests/support/laser_lines.h"
 
 namespace trunnion {
 namespace {
@@ -90,6 +93,40 @@ TEST_CASE("targets that are read at one position of the axes are left out togeth
     diagnosis::join_targets(few, one, table, after);
     CHECK(after.group == before.group);
     CHECK(after.fold == before.fold);
+}
+
+TEST_CASE("no target of a laser is left out in all its visits at once", "[diagnosis]") {
+    for (const int places : {4, 5, 8, 13, 21, 31, 40})
+        for (const int extra : {0, 3, 5}) {  // readings of a test before, which shift the folds
+            INFO(places << " places after " << extra);
+            records::ReadingTable table = laser_lines::empty_table();
+            const auto add = [&](const std::string& test, double at_mm) {
+                records::Reading row;
+                row.index = static_cast<int>(table.rows.size());
+                row.time_s = 10.0 * row.index;
+                row.commanded[Axis::X] = at_mm;
+                row.test = test;
+                row.device = records::Device::linear;
+                row.feature = "R1";
+                row.direction_M = Vector3::UnitX();
+                row.value_mm = 0.0;
+                table.rows.push_back(row);
+            };
+            for (int k = 0; k < extra; ++k) add("before", -100.0 + k);
+            for (int run = 0; run < 2; ++run)
+                for (int k = 0; k < 2 * places; ++k)
+                    add("X", 20.0 * (k < places ? k : 2 * places - 1 - k));
+            const emulator::Replay replay(laser_lines::stage(), table);
+            const auto blocks = diagnosis::noise_blocks(replay, table);
+            diagnosis::Folds folds = diagnosis::make_folds(blocks, replay.size());
+            diagnosis::spread_visits(blocks, replay, table, folds);
+            std::map<double, std::set<int>> out;
+            for (std::size_t i = static_cast<std::size_t>(extra); i < replay.size(); ++i)
+                out[table.rows[replay.table_row(i)].commanded[Axis::X]].insert(
+                    folds.fold[static_cast<std::size_t>(folds.group[i])]);
+            REQUIRE(out.size() == static_cast<std::size_t>(places));
+            for (const auto& [at_mm, of_target] : out) CHECK(of_target.size() >= 2);
+        }
 }
 
 TEST_CASE("a pose that is left and taken again is another visit", "[diagnosis]") {
