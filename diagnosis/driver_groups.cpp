@@ -166,11 +166,35 @@ class DriverList {
                 const std::string names =
                     table_.names[moving[a].axis] + " and " + table_.names[moving[b].axis];
                 const RowFunction u = reduced(moving[a]), v = reduced(moving[b]);
-                add(names, "machine frame", "follows the product of the positions of " + names,
-                    {[u, v](std::size_t i) { return u(i) * v(i); },
-                     [u, v](std::size_t i) { return bow(u(i)) * bow(v(i)); }},
-                    machine_axes());
+                Driver driver{
+                    names, "machine frame", "follows the product of the positions of " + names, {}};
+                for (const RowFunction& carrier : machine_axes())
+                    for (auto& column : products_beside_each(u, v, carrier))
+                        driver.columns.push_back(std::move(column));
+                if (!driver.columns.empty()) drivers_.push_back(std::move(driver));
             }
+    }
+
+    /// Products of two positions and of their bows, times a carrier, without what each position
+    /// does by itself: along a line where one of them rests, a product is an error of the other
+    /// axis. None where nothing is left.
+    std::vector<std::vector<double>> products_beside_each(const RowFunction& u,
+                                                          const RowFunction& v,
+                                                          const RowFunction& carrier) const {
+        constexpr double least = 1e-3;  // of a product
+        Eigen::MatrixXd each(static_cast<Eigen::Index>(n()), 5), product(each.rows(), 2);
+        for (std::size_t i = 0; i < n(); ++i) {
+            const auto row = static_cast<Eigen::Index>(i);
+            const double c = carrier(i);
+            each.row(row) << c, c * u(i), c * bow(u(i)), c * v(i), c * bow(v(i));
+            product.row(row) << c * u(i) * v(i), c * bow(u(i)) * bow(v(i));
+        }
+        const Eigen::MatrixXd left = product - each * each.colPivHouseholderQr().solve(product);
+        std::vector<std::vector<double>> columns;
+        for (Eigen::Index k = 0; k < left.cols(); ++k)
+            if (left.col(k).norm() > least * product.col(k).norm())
+                columns.emplace_back(left.col(k).begin(), left.col(k).end());
+        return columns;
     }
 
     void positions() {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "diagnosis/rules.h"
+
 namespace trunnion::diagnosis {
 namespace {
 
@@ -17,16 +19,17 @@ std::optional<std::size_t> whole_of(const Design& design, std::size_t driver) {
     return std::nullopt;
 }
 
-/// True for a model that is more likely. Of readings without noise the evidence is arithmetic, or
-/// no number: there the score decides.
-bool is_more_likely(Design& design, const Model& one, const Model& other) {
+/// True for a model that is clearly more likely: by so much that it is no matter of the number of
+/// groups into which one and the same form is divided. Of readings without noise the evidence is
+/// arithmetic, or no number: there the score decides.
+bool is_clearly_likelier(Design& design, const Model& one, const Model& other) {
     constexpr double arithmetic = 1e9;  // nats
     const double gained = evidence(design, one) - evidence(design, other);
     const bool is_evidence = std::abs(gained) < arithmetic;  // false for no number, too
-    return (is_evidence ? gained : one.score - other.score) >= better;
+    return (is_evidence ? gained : one.score - other.score) >= rules::whole_driver;
 }
 
-/// The model with one of its drivers whole, where that is more likely.
+/// The model with one of its drivers whole, where that is clearly more likely.
 std::optional<Model> with_one_whole(Design& design, const SearchSetting& setting,
                                     const Model& model) {
     // What explains the readings to the last digit needs no other driver.
@@ -37,7 +40,7 @@ std::optional<Model> with_one_whole(Design& design, const SearchSetting& setting
         Model trial = model;
         trial.members[k] = *whole;
         trial = pruned(design, setting, tuned(design, setting, std::move(trial), 3));
-        if (is_more_likely(design, trial, model)) return trial;
+        if (is_clearly_likelier(design, trial, model)) return trial;
     }
     return std::nullopt;
 }

@@ -1,10 +1,12 @@
 // A course of time that is no drift of the catalogue: poses follow each other in time, and what
-// they have of it must not become errors of the axes.
+// they have of it must not become errors of the axes. Nor the other way round.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <random>
 
 #include "diagnosis/diagnosis.h"
 #include "tests/support/campaign.h"
+#include "tests/support/laser_lines.h"
 #include "tests/support/said.h"
 
 namespace trunnion {
@@ -41,6 +43,70 @@ TEST_CASE("a course of time is no error of the axes", "[diagnosis]") {
                 if (cause.effect != "unknown" && cause.effect != "thermal.drift")
                     CHECK(cause.probability.value() < 0.5);
         }
+}
+
+namespace {
+
+/// An angle of an axis along its travel (-1..1), rad: slope, bow and a wave.
+struct AngleForm {
+    double slope, bow, wave, phase;
+    double at(double part) const {
+        return 1e-6 * (slope * part + bow * part * part + wave * std::sin(6.0 * part + phase));
+    }
+};
+
+/// Autocollimator tests of X and Z on a machine of two slides, four angles, five runs each way.
+records::ReadingTable two_slides(unsigned seed) {
+    std::mt19937_64 engine(seed);
+    std::normal_distribution<double> normal(0.0, 1.0);
+    records::ReadingTable table = laser_lines::empty_table();
+    table.axes = {Axis::Z, Axis::X};
+    const std::tuple<const char*, Axis, Vector3, double> tests[] = {
+        {"Z about X", Axis::Z, Vector3::UnitX(), 45.0},
+        {"Z about Y", Axis::Z, Vector3::UnitY(), 30.0},
+        {"X about Y", Axis::X, Vector3::UnitY(), 18.0},
+        {"X about Z", Axis::X, Vector3::UnitZ(), 10.0}};
+    for (const auto& [test, axis, direction, size] : tests) {
+        const AngleForm form{size * (1.0 + 0.3 * normal(engine)), 0.1 * size * normal(engine),
+                             size * (seed % 2 ? 0.0 : 0.04), 3.0 * normal(engine)};
+        for (int pass = 0; pass < 10; ++pass)
+            for (int k = 0; k < 31; ++k) {
+                const int place = pass % 2 ? 30 - k : k;
+                records::Reading row;
+                row.index = static_cast<int>(table.rows.size());
+                row.time_s = 8.0 * row.index;
+                row.commanded[axis] = (axis == Axis::Z ? 19.5 : 9.0) * place;
+                row.test = test;
+                row.device = records::Device::angle;
+                row.feature = "R1";
+                row.angular = true;
+                row.direction_M = direction;
+                row.value_mm = form.at(place / 15.0 - 1.0) + 1e-6 * normal(engine);
+                table.rows.push_back(row);
+            }
+    }
+    return table;
+}
+
+}  // namespace
+
+TEST_CASE("the angles of two axes are no product of their positions", "[diagnosis]") {
+    std::vector<std::string> notes;
+    const setup::Setup setup = setup::parse_setup(
+        "[machine]\nname = \"lathe\"\nchain = \"w b Z X t\"\n"
+        "[[artefact]]\nname = \"R1\"\nkind = \"target\"\ntool_mm = [0, 0, -100]\n"
+        "[model]\nmodelled = []\n",
+        "lathe.toml", notes);
+    for (unsigned seed = 1; seed <= 8; ++seed) {
+        const diagnosis::Diagnosis d =
+            diagnosis::diagnose(setup, two_slides(seed), {.plan_next = false});
+        INFO(seed << ": " << said(d));
+        CHECK(d.explained > 0.95);
+        for (const char* name : {"Z.angular", "X.angular"})
+            CHECK(std::any_of(d.causes.begin(), d.causes.end(), [&](const auto& cause) {
+                return cause.effect == name && cause.probability >= 0.8;
+            }));
+    }
 }
 
 }  // namespace trunnion
