@@ -198,9 +198,12 @@ TableForm form_of(const Prepared& p, const Family& family, const kinematics::Axi
     return table;
 }
 
-/// The bow of a positioning error is a table already; that of other motions is their textbook form.
+/// The bow of positions and of angles is a table already; that of other motions is in their
+/// textbook form.
 std::size_t least_knots(const Family& family) {
-    return family.motion == EffectKind::positioning ? 3 : 4;
+    const bool bow_is_table =
+        family.motion == EffectKind::positioning || family.motion == EffectKind::angular;
+    return bow_is_table ? 3 : 4;
 }
 
 /// The shapes of a free form; of a turn with knots, which has its harmonics beside it, that alone

@@ -195,6 +195,26 @@ TEST_CASE("five places of one run up and down beside a longer test are explained
     }
 }
 
+TEST_CASE("a bow of angles at three places is told there", "[diagnosis][few_places]") {
+    const Error bow = [](double at_mm) { return 0.02 * (std::abs(at_mm - 300.0) < 1.0); };
+    for (unsigned seed = 1; seed <= 4; ++seed) {
+        records::ReadingTable table = readings({even_places(3, 600.0), 4, 1e-3}, bow, seed);
+        for (records::Reading& row : table.rows) {
+            if (!row.value_mm) continue;
+            row.device = records::Device::angle;
+            row.angular = true;
+            row.direction_M = Vector3::UnitY();
+            *row.value_mm *= 1e-3;  // from mm to rad
+        }
+        const diagnosis::Diagnosis d = diagnosed(table);
+        INFO(seed << '\n' << said(d));
+        CHECK(d.explained > 0.9);
+        REQUIRE_FALSE(d.causes.empty());
+        CHECK(d.causes.front().effect == "X.angular");
+        CHECK_FALSE(d.between_places);
+    }
+}
+
 TEST_CASE("repeats that agree with each other and not with the simulation are a gap",
           "[diagnosis][few_places]") {
     const auto at_mm = even_places(6, 150.0);
