@@ -7,6 +7,7 @@
 
 #include "base/units.h"
 #include "diagnosis/candidate_groups.h"
+#include "diagnosis/places.h"
 #include "diagnosis/rules.h"
 #include "effects/polynomials.h"
 
@@ -153,7 +154,7 @@ double prior_of(const effects::Effect& effect) {
 
 /// A change may concern an effect that the simulation already contains.
 bool offered(const Prepared& p, const effects::Effect& effect, const Since& since) {
-    if (effect.parameters.empty() || has_keys(effect)) return false;
+    if (effect.parameters.empty() || has_keys(effect) || is_slope_here(p, effect)) return false;
     // Of one axis that moves, the stretch is its scale.
     if (effect.kind == effects::EffectKind::machine_expansion && moving_linear_axes(p) < 2)
         return false;

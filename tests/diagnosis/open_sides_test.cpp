@@ -1,7 +1,9 @@
 // Tables whose head does not say from which side the axes came: the sides are found beside the
 // cause, and are none themselves.
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <random>
 
 #include "diagnosis/diagnosis.h"
 #include "tests/support/campaign.h"
@@ -107,6 +109,62 @@ TEST_CASE("a backlash that the simulation has: its side is found with the base",
     CHECK(d.verdict == diagnosis::Verdict::no_gap);
     REQUIRE(d.sides.size() == 1);
     CHECK(d.sides[0].side == -1);
+}
+
+namespace {
+
+/// Points of a tracker in a grid of 3 x 3 places at two heights of Z, which alternate, twice. What
+/// is read at the upper height is shifted.
+records::ReadingTable two_heights(const Vector3& shift_mm, unsigned seed) {
+    std::mt19937_64 engine(seed);
+    std::normal_distribution<double> noise(0.0, 5e-3);
+    records::ReadingTable table = laser_lines::empty_table();
+    table.side_before.fill(0);
+    for (int k = 0; k < 36; ++k)
+        for (int d = 0; d < 3; ++d) {
+            records::Reading row;
+            row.index = static_cast<int>(table.rows.size());
+            row.time_s = 20.0 * k;
+            row.test = "P";
+            row.device = records::Device::point;
+            row.feature = "R1";
+            row.commanded[Axis::X] = 400.0 * (k / 2 % 3 - 1);
+            row.commanded[Axis::Y] = 400.0 * (k / 6 % 3 - 1);
+            row.commanded[Axis::Z] = k % 2 ? 300.0 : -300.0;
+            row.direction_M = Vector3::Unit(d);
+            row.value_mm = (k % 2 ? shift_mm(d) : 0.0) + noise(engine);
+            table.rows.push_back(row);
+        }
+    return table;
+}
+
+}  // namespace
+
+TEST_CASE("at two heights, each reached from one side, a shift is a squareness and no play",
+          "[diagnosis][sides]") {
+    std::vector<std::string> notes;
+    const setup::Setup setup = setup::parse_setup(
+        "[machine]\nname = \"mill\"\nchain = \"w b X Y Z t\"\n"
+        "[[instrument]]\nname = \"T\"\nframe = \"M\"\nfree = [\"pose\"]\n"
+        "[[artefact]]\nname = \"R1\"\nkind = \"target\"\ntool_mm = [0, 0, -150]\n"
+        "[model]\nmodelled = []\n",
+        "mill.toml", notes);
+    for (unsigned seed = 1; seed <= 3; ++seed) {
+        const diagnosis::Diagnosis d =
+            diagnosis::diagnose(setup, two_heights({0.06, -0.04, 0.0}, seed), {.plan_next = false});
+        INFO(seed << ": " << said(d));
+        for (const diagnosis::Cause& cause : d.causes) {
+            const bool sideways =
+                cause.effect == "Z.lateral_play" || cause.effect == "Z.straightness";
+            CHECK_FALSE(sideways);
+        }
+        // Through one tool length the angles of Z do the same.
+        for (const std::string name : {"ZX.squareness", "YZ.squareness"})
+            CHECK(std::any_of(d.causes.begin(), d.causes.end(), [&](const auto& cause) {
+                return cause.effect == name ||
+                       std::count(cause.rivals.begin(), cause.rivals.end(), name) > 0;
+            }));
+    }
 }
 
 }  // namespace trunnion
