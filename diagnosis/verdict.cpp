@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/few_places.h"
 #include "diagnosis/places.h"
 #include "diagnosis/ripples.h"
 #include "diagnosis/rules.h"
@@ -110,23 +111,6 @@ void mark_accidents(const Design& design, const Prepared& prepared, const Model&
         if (chance_of_period(prepared, *group.effect, group.keys, part) > rare)
             j.interpolates[k] = false;
     }
-}
-
-/// True for a textbook form with a bend, or with a table beside it, of a linear axis that was read
-/// at so few places that other forms would do the same there.
-bool bends_at_few_places(const Design& design, const Prepared& prepared, const Model& model,
-                         std::size_t position) {
-    const ColumnGroup& group = design.group(model.members[position]);
-    if (group.kind != GroupKind::textbook || !group.effect->axis) return false;
-    const Axis axis = *group.effect->axis;
-    const auto bends = [&](std::size_t m) {
-        const ColumnGroup& table = design.group(m);
-        return table.kind == GroupKind::table && table.table.axis.axis == axis;
-    };
-    return !prepared.table.names.is_rotary(axis) &&
-           place_count(prepared, axis) < rules::bend_places &&
-           (group.columns() > 1 || group.effect->kind == effects::EffectKind::straightness ||
-            std::any_of(model.members.begin(), model.members.end(), bends));
 }
 
 /// Other periods of a ripple: those with the same values at all places, or those that the

@@ -104,4 +104,20 @@ TEST_CASE("errors of its own at each target of a turn are written for these targ
     CHECK(listed->points.size() == 12);
 }
 
+TEST_CASE("harmonics of a turn say nothing across a gap between the places", "[diagnosis]") {
+    for (const bool wide : {false, true}) {
+        records::ReadingTable seen = read(eccentric, 12, 3, 7);
+        std::erase_if(seen.rows, [&](const records::Reading& row) {
+            const long target = std::lround(row.commanded[Axis::C] / (pi / 6.0));
+            return wide ? target >= 6 && target <= 9 : target == 6;
+        });
+        const diagnosis::Diagnosis d = diagnosis::diagnose(table(), seen, {.plan_next = false});
+        INFO(wide << ": " << said(d));
+        REQUIRE_FALSE(d.causes.empty());
+        CHECK(d.causes.front().effect == "C.positioning");
+        CHECK(d.explained > 0.8);
+        CHECK(d.between_places == !wide);
+    }
+}
+
 }  // namespace trunnion
