@@ -169,19 +169,17 @@ class DriverList {
                 Driver driver{
                     names, "machine frame", "follows the product of the positions of " + names, {}};
                 for (const RowFunction& carrier : machine_axes())
-                    for (auto& column : products_beside_each(u, v, carrier))
+                    for (auto& column : products_of(u, v, carrier))
                         driver.columns.push_back(std::move(column));
                 if (!driver.columns.empty()) drivers_.push_back(std::move(driver));
             }
     }
 
-    /// Products of two positions and of their bows, times a carrier, without what each position
-    /// does by itself: along a line where one of them rests, a product is an error of the other
-    /// axis. None where nothing is left.
-    std::vector<std::vector<double>> products_beside_each(const RowFunction& u,
-                                                          const RowFunction& v,
-                                                          const RowFunction& carrier) const {
-        constexpr double least = 1e-3;  // of a product
+    /// Products of two positions and of their bows, times a carrier: those that are no function of
+    /// one position each. Along a line where one axis rests, a product is an error of the other.
+    std::vector<std::vector<double>> products_of(const RowFunction& u, const RowFunction& v,
+                                                 const RowFunction& carrier) const {
+        constexpr double least = 0.1;  // of a product that the sum of such functions leaves
         Eigen::MatrixXd each(static_cast<Eigen::Index>(n()), 5), product(each.rows(), 2);
         for (std::size_t i = 0; i < n(); ++i) {
             const auto row = static_cast<Eigen::Index>(i);
@@ -193,7 +191,7 @@ class DriverList {
         std::vector<std::vector<double>> columns;
         for (Eigen::Index k = 0; k < left.cols(); ++k)
             if (left.col(k).norm() > least * product.col(k).norm())
-                columns.emplace_back(left.col(k).begin(), left.col(k).end());
+                columns.emplace_back(product.col(k).begin(), product.col(k).end());
         return columns;
     }
 
