@@ -1,6 +1,8 @@
 #include "diagnosis/few_places.h"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <set>
 
 #include "base/units.h"
@@ -33,7 +35,52 @@ bool waves_between_places(const Prepared& prepared, const ColumnGroup& group, Ax
     return order > 0 && widest_step(prepared, axis) > even * pi / order;
 }
 
+bool shows_no_displacement(const Prepared& p, std::size_t row) {
+    return p.replay.contact(row).device == records::Device::angle;
+}
+
+struct TwoPlaces {
+    double low = HUGE_VAL, high = -HUGE_VAL;  ///< mm
+    bool is_high(double q) const { return 2.0 * q > low + high; }
+};
+
+/// The two positions of an axis; none where it stands at one, or at three and more.
+std::optional<TwoPlaces> two_places(const Prepared& p, Axis axis) {
+    constexpr double same_place = 1e-3;  // of the way
+    TwoPlaces places;
+    for (std::size_t i = 0; i < p.replay.size(); ++i) {
+        if (shows_no_displacement(p, i)) continue;
+        places.low = std::min(places.low, p.replay.sample(i).position[axis]);
+        places.high = std::max(places.high, p.replay.sample(i).position[axis]);
+    }
+    const double near = same_place * (places.high - places.low);
+    if (!(near > 0.0)) return std::nullopt;
+    for (std::size_t i = 0; i < p.replay.size(); ++i) {
+        const double q = p.replay.sample(i).position[axis];
+        if (!shows_no_displacement(p, i) && q - places.low > near && places.high - q > near)
+            return std::nullopt;
+    }
+    return places;
+}
+
 }  // namespace
+
+bool is_at_two_places(const Prepared& p, Axis axis) {
+    return two_places(p, axis).has_value();
+}
+
+bool is_squareness_here(const Prepared& p, const effects::Effect& effect) {
+    if (effect.kind != effects::EffectKind::lateral_play) return false;
+    const std::optional<TwoPlaces> places = two_places(p, *effect.axis);
+    if (!places) return false;
+    bool seen[2][2] = {};  // at the low and the high position, travelling to - and to +
+    for (std::size_t i = 0; i < p.replay.size(); ++i) {
+        const int travel = p.replay.sample(i).travel[index_of(*effect.axis)];
+        if (travel != 0 && !shows_no_displacement(p, i))
+            seen[places->is_high(p.replay.sample(i).position[*effect.axis])][travel > 0] = true;
+    }
+    return !(seen[0][0] && seen[0][1]) && !(seen[1][0] && seen[1][1]);
+}
 
 bool bends_at_few_places(const Design& design, const Prepared& prepared, const Model& model,
                          std::size_t position) {

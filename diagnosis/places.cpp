@@ -1,10 +1,8 @@
 #include "diagnosis/places.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <tuple>
 
 namespace trunnion::diagnosis {
@@ -93,33 +91,6 @@ std::vector<double> positions_at(const std::vector<Place>& places) {
     std::vector<double> list;
     for (const Place& place : places) list.push_back(place.position);
     return list;
-}
-
-bool is_slope_here(const Prepared& p, const effects::Effect& effect) {
-    using enum effects::EffectKind;
-    const bool bow = effect.kind == straightness;
-    const bool play =
-        effect.kind == backlash || effect.kind == lateral_play || effect.kind == reversal_spike;
-    if (!effect.axis || !(bow || play)) return false;
-    constexpr double same_place = 1e-3;  // of the range
-    const Axis axis = *effect.axis;
-    if (is_rotary(p, axis)) return false;
-    const double same = same_place * range_of(p, axis);
-    std::optional<double> first, other;
-    std::array<bool, 4> seen{};  // side + of the first and of the other position, then side -
-    for (std::size_t i = 0; i < p.replay.size(); ++i) {
-        // An angle shows no displacement.
-        if (p.replay.contact(i).device == records::Device::angle) continue;
-        const double q = p.replay.sample(i).position[axis];
-        if (!first) first = q;
-        const bool at_first = std::abs(q - *first) <= same;
-        if (!at_first && !other) other = q;
-        if (!at_first && std::abs(q - *other) > same) return false;
-        const int side = p.replay.sample(i).travel[index_of(axis)];
-        if (side != 0) seen[(at_first ? 0 : 1) + (side > 0 ? 0 : 2)] = true;
-    }
-    const bool both_sides = (seen[0] && seen[2]) || (seen[1] && seen[3]);
-    return other && (bow || !both_sides);
 }
 
 double effective_count(const std::vector<Place>& places) {

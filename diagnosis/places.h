@@ -25,11 +25,6 @@ std::vector<Place> telling_places(const Prepared& prepared, Axis axis);
 /// The same as positions alone.
 std::vector<double> positions_at(const std::vector<Place>& places);
 
-/// True for a bow or a play of an axis that stands at two positions only (a play: each of them
-/// reached from one side). There it is a slope: a squareness or a scale, which needs no third
-/// place.
-bool is_slope_here(const Prepared& prepared, const effects::Effect& effect);
-
 /// Number of equally weighted places with the same scatter of a mean (Kish): some places that tell
 /// nearly nothing beside others hardly count.
 double effective_count(const std::vector<Place>& places);

@@ -26,7 +26,6 @@ constexpr double spoiled_part = 0.02;   ///< of all readings, beforehand (assume
 constexpr double least_evidence = 3.0;  ///< nats, for the whole model
 constexpr double course_evidence =
     9.0;                              ///< ... for a course of time over tests whose zeros scatter
-constexpr double whole_driver = 9.0;  ///< ... for a driver in the place of named effects
 constexpr double plain_evidence = 15.0;  ///< ... above which left-out blocks need not agree
 constexpr double plain_chance = 1e-3;    ///< ... or below this chance, where repeats tell the noise
 constexpr double least_t = 2.0;          ///< t statistic of the loss saved on left-out blocks

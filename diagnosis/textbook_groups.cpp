@@ -7,9 +7,9 @@
 
 #include "base/units.h"
 #include "diagnosis/candidate_groups.h"
-#include "diagnosis/places.h"
+#include "diagnosis/few_places.h"
+#include "diagnosis/mean_line.h"
 #include "diagnosis/rules.h"
-#include "effects/polynomials.h"
 
 namespace trunnion::diagnosis {
 namespace {
@@ -87,17 +87,20 @@ bool has_own_gains(const effects::Effect& effect) {
     return effect.kind == effects::EffectKind::sensor_gain && effect.parameters.size() > 1;
 }
 
+std::vector<Takes> each_alone(const effects::Effect& effect) {
+    std::vector<Takes> forms;
+    for (const effects::EffectParameter& one : effect.parameters)
+        forms.push_back(
+            [name = one.name](const effects::EffectParameter& p) { return p.name == name; });
+    return forms;
+}
+
 }  // namespace
 
 std::vector<std::function<bool(const effects::EffectParameter&)>> simpler_forms(
     const effects::Effect& effect) {
+    if (has_own_gains(effect)) return each_alone(effect);
     std::vector<Takes> forms;
-    if (has_own_gains(effect)) {
-        for (const effects::EffectParameter& gain : effect.parameters)
-            forms.push_back(
-                [name = gain.name](const effects::EffectParameter& p) { return p.name == name; });
-        return forms;
-    }
     std::set<std::string> vectors;
     for (const effects::EffectParameter& p : effect.parameters) {
         if (p.component >= 0 && !p.is_key()) vectors.insert(p.name);
@@ -154,51 +157,14 @@ double prior_of(const effects::Effect& effect) {
 
 /// A change may concern an effect that the simulation already contains.
 bool offered(const Prepared& p, const effects::Effect& effect, const Since& since) {
-    if (effect.parameters.empty() || has_keys(effect) || is_slope_here(p, effect)) return false;
+    if (effect.parameters.empty() || has_keys(effect)) return false;
+    // Through two places there is no bow, only a slope.
+    if (effect.kind == effects::EffectKind::straightness && is_at_two_places(p, *effect.axis))
+        return false;
     // Of one axis that moves, the stretch is its scale.
     if (effect.kind == effects::EffectKind::machine_expansion && moving_linear_axes(p) < 2)
         return false;
     return !since.before.empty() || !modelled(p, effect);
-}
-
-/// Slope of the mean line of q^2 over the positions that were read, mm.
-double slope_of_square_mm(const Prepared& p, Axis axis) {
-    std::vector<double> places;
-    for (std::size_t i = 0; i < p.replay.size(); ++i)
-        places.push_back(p.replay.sample(i).position[axis]);
-    const Eigen::Map<const Eigen::ArrayXd> q(places.data(),
-                                             static_cast<Eigen::Index>(places.size()));
-    const Eigen::ArrayXd way = q - q.mean();
-    const double square = way.square().sum();
-    return square > 0.0 ? (way * q.square()).sum() / square : 0.0;
-}
-
-/// Slope and bow of an error, in typical sizes: the bow about the mean line of the measured travel.
-Eigen::Vector2d bow_about_mean_line(const Prepared& p, const effects::Effect& effect,
-                                    std::size_t bow) {
-    const double slope = slope_of_square_mm(p, *effect.axis) / effects::reach_mm;
-    const auto& parameters = effect.parameters;
-    return {-slope * parameters[bow].typical / parameters[bow - 1].typical, 1.0};
-}
-
-/// Binds the slope in each direction to the bow, so that the bow is one about the mean line of the
-/// measured travel. ISO 230-1 takes straightness from that line; its slope is squareness.
-void take_bow_from_mean_line(const Prepared& p, ColumnGroup& group) {
-    const auto& parameters = group.effect->parameters;
-    std::vector<Eigen::VectorXd> columns;
-    const auto count = static_cast<Eigen::Index>(group.parameters.size());
-    for (Eigen::Index k = 0; k < count; ++k) {
-        const std::size_t bow = group.parameters[static_cast<std::size_t>(k)];
-        if (parameters[bow].mean_line) continue;
-        Eigen::VectorXd column = Eigen::VectorXd::Unit(count, k);
-        // The slope of the same direction stands before it.
-        if (k > 0 && group.parameters[static_cast<std::size_t>(k - 1)] == bow - 1)
-            column(k - 1) = bow_about_mean_line(p, *group.effect, bow)(0);
-        columns.push_back(std::move(column));
-    }
-    group.shape.resize(count, static_cast<Eigen::Index>(columns.size()));
-    for (std::size_t k = 0; k < columns.size(); ++k)
-        group.shape.col(static_cast<Eigen::Index>(k)) = columns[k];
 }
 
 /// True when a rotary axis was read over less than half a turn, where harmonics look alike.
@@ -231,7 +197,9 @@ std::vector<Takes> forms_by_order(const Prepared& prepared, const effects::Effec
 /// Adds all forms of an effect whose columns are in the design.
 void add_forms(Design& design, const Prepared& prepared, const EffectColumns& ready,
                const Since& since, double log_prior) {
-    std::vector<Takes> forms = simpler_forms(*ready.effect);
+    const bool by_direction = is_squareness_here(prepared, *ready.effect);
+    std::vector<Takes> forms =
+        by_direction ? each_alone(*ready.effect) : simpler_forms(*ready.effect);
     for (Takes& form : forms_by_order(prepared, *ready.effect)) forms.push_back(std::move(form));
     const auto& parameters = ready.effect->parameters;
     const bool has_mean_line =
@@ -251,7 +219,7 @@ void add_forms(Design& design, const Prepared& prepared, const EffectColumns& re
         if (group.is_change()) group.name += " since " + since.session;
         if (group.columns() > 0) design.add(std::move(group));
     };
-    if (!own_gains) add({});
+    if (!own_gains && !by_direction) add({});
     for (const Takes& takes : forms) add(takes);
 }
 

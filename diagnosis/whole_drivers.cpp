@@ -26,7 +26,7 @@ bool is_clearly_likelier(Design& design, const Model& one, const Model& other) {
     constexpr double arithmetic = 1e9;  // nats
     const double gained = evidence(design, one) - evidence(design, other);
     const bool is_evidence = std::abs(gained) < arithmetic;  // false for no number, too
-    return (is_evidence ? gained : one.score - other.score) >= rules::whole_driver;
+    return (is_evidence ? gained : one.score - other.score) >= rules::least_evidence;
 }
 
 /// The model with one of its drivers whole, where that is clearly more likely.
