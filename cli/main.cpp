@@ -113,6 +113,8 @@ std::string no_such_command(const NamedCommand& named) {
     std::vector<std::string> names;
     for (const CLI::App* command : named.command->get_subcommands({}))
         names.push_back(command->get_name());
+    if (named.unknown.empty())
+        return fmt::format("a command is missing: {}", fmt::join(names, ", "));
     return fmt::format("there is no command '{}'{}", named.unknown,
                        did_you_mean(named.unknown, names));
 }
@@ -192,6 +194,7 @@ int run_guarded(const CLI::App& app, const Run& run) {
     if (tells_inputs(app) || talk() == Talk::verbose) record.emplace();
     try {
         refuse_clashing_files(app);
+        refuse_unwritable_files(app);
         const WaitLimits waits(time_limit_s(app), Interruption::asked);
         const auto begin = std::chrono::steady_clock::now();
         const int code = run();
@@ -237,7 +240,10 @@ int parse_and_run(int argc, char** argv) {
     } catch (const CLI::Success& asked) {
         return show_help(app, asked);
     } catch (const CLI::ParseError& e) {
-        return report_usage_error(no_such_option(*named.command, words, e.what()));
+        const bool lacks_command =
+            e.get_name() == "RequiredError" && !named.command->get_subcommands({}).empty();
+        const std::string says = lacks_command ? no_such_command(named) : e.what();
+        return report_usage_error(no_such_option(*named.command, words, says));
     }
     return run_guarded(app, run);
 }
