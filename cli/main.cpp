@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
@@ -256,8 +257,11 @@ using namespace trunnion;
 
 namespace {
 
-/// The only object that the two handlers below share.
+/// The only object that the handlers below share.
 std::atomic<bool> memory_is_missing = false;
+
+constexpr const char* not_enough_memory =
+    "trunnion: there is not enough memory (--max-memory, or this computer)\n";
 
 void note_missing_memory() {
     memory_is_missing = true;
@@ -275,7 +279,19 @@ void note_missing_memory() {
     } catch (...) {
     }
     if (!memory_is_missing) std::abort();
-    write_error("trunnion: there is not enough memory (--max-memory, or this computer)\n");
+    write_error(not_enough_memory);
+    std::_Exit(exit_limit);
+}
+
+/// nlohmann::json 3.11.2 and lists in braces of GCC 12 destroy what could not be made, by a null
+/// pointer, where memory is missing: that is a limit, too. Any other fault happens again at the
+/// return, without this handler.
+void end_at_missing_object(int signal) {
+    if (!memory_is_missing) {
+        std::signal(signal, SIG_DFL);
+        return;
+    }
+    write_error(not_enough_memory);
     std::_Exit(exit_limit);
 }
 
@@ -296,11 +312,12 @@ int main(int argc, char** argv) {
     keep_freed_memory();
     std::set_new_handler(note_missing_memory);
     std::set_terminate(end_without_memory);
+    std::signal(SIGSEGV, end_at_missing_object);
     prepare_streams();
     try {
         return cli::parse_and_run(argc, argv);
     } catch (const std::bad_alloc&) {
-        write_error("trunnion: there is not enough memory (--max-memory, or this computer)\n");
+        write_error(not_enough_memory);
         return exit_limit;
     } catch (const InputError& e) {  // of the help
         return cli::report_input_error(e);
