@@ -7,7 +7,6 @@
 #include "backup/value_lines.h"
 #include "backup/value_text.h"
 #include "base/alarm.h"
-#include "base/output_files.h"
 #include "base/read_file.h"
 #include "offsets/whole_parameter.h"
 
@@ -72,7 +71,9 @@ const char* text_of(Standing standing) {
 ControlBackup read_backup(const std::string& folder) {
     ControlBackup backup;
     backup.folder = folder;
-    if (!fs::is_directory(folder)) throw InputError("no such folder", {folder});
+    if (!fs::is_directory(folder))
+        throw InputError(fs::exists(folder) ? "is a file, not a folder" : "no such folder",
+                         {folder});
     for (const auto& entry : fs::directory_iterator(folder)) {
         const std::string on_disk = entry.path().filename().string(), name = upper(on_disk);
         if (standing_of_file(name) == Standing::ignored || !entry.is_regular_file()) continue;
@@ -89,7 +90,7 @@ ControlBackup read_backup(const std::string& folder) {
     return backup;
 }
 
-void write_backup(const ControlBackup& backup, const std::string& folder) {
+void add_backup_files(const ControlBackup& backup, const std::string& folder, OutputFiles& files) {
     const std::vector<std::string> others = other_files(backup);
     // Of a relative path whose first part does not exist, weakly_canonical gives a relative path.
     const fs::path from = fs::weakly_canonical(fs::absolute(backup.folder)),
@@ -97,7 +98,6 @@ void write_backup(const ControlBackup& backup, const std::string& folder) {
     const std::string inside = to.lexically_relative(from).string();
     if (fs::is_directory(from) && !inside.starts_with(".."))
         throw InputError("this folder is inside the backup, which is copied whole", {folder});
-    OutputFiles files;
     files.add_folder(folder);
     for (const auto& [name, bytes] : backup.files) {
         const auto on_disk = backup.names.find(name);
@@ -107,7 +107,6 @@ void write_backup(const ControlBackup& backup, const std::string& folder) {
         files.add_folder((to / path).parent_path().string());
         files.open((to / path).string()).append(read_file((from / path).string()));
     }
-    files.write();
 }
 
 std::vector<BackupValue> list_values(const ControlBackup& backup) {

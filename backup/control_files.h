@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/output_files.h"
 #include "offsets/stores.h"
 
 namespace trunnion::backup {
@@ -28,8 +29,8 @@ extern const std::vector<std::string> backup_file_names;
 /// Reads the files of a folder written by a control, values and programs. Throws InputError when
 /// none of them has values.
 ControlBackup read_backup(const std::string& folder);
-/// Writes these files, and copies every other file of the folder that they come from.
-void write_backup(const ControlBackup& backup, const std::string& folder);
+/// Adds these files to `files`, and copies of every other file of the folder that they come from.
+void add_backup_files(const ControlBackup& backup, const std::string& folder, OutputFiles& files);
 
 constexpr int other_path = 1000;
 

@@ -18,8 +18,26 @@ namespace trunnion::inline base {
 namespace fs = std::filesystem;
 namespace {
 
+/// The first part of `folder` that is missing or is no folder; empty if all are folders.
+std::string fault_of_folder(const fs::path& folder) {
+    fs::path part;
+    for (const fs::path& name : folder) {
+        part /= name;
+        std::error_code unknown;
+        const fs::file_status status = fs::status(part, unknown);
+        if (!fs::exists(status) && status.type() == fs::file_type::not_found)
+            return "there is no folder '" + part.string() + "'";
+        if (fs::exists(status) && !fs::is_directory(status))
+            return "'" + part.string() + "' is a file, not a folder";
+    }
+    return {};
+}
+
 [[noreturn]] void refuse(const std::string& path, int error) {
-    throw InputError("cannot be written: " + system_reason(error), {path, 0, 0});
+    const bool of_folder = error == ENOENT || error == ENOTDIR;
+    const std::string fault = of_folder ? fault_of_folder(fs::path(path).parent_path()) : "";
+    throw InputError("cannot be written: " + (fault.empty() ? system_reason(error) : fault),
+                     {path, 0, 0});
 }
 
 /// Blocks signals that end a process during its lifetime.
@@ -213,12 +231,18 @@ void OutputFile::complete() {
     if ((state_->direct || named_early) && !state_->file.close()) refuse(state_->path, errno);
 }
 
-void OutputFile::publish() {
+void OutputFile::give_name() {
     if (state_->direct) return;
     const HeldSignals held;
     if (state_->name.empty()) state_->give_name();
-    if (!state_->file.close() || ::rename(state_->name.c_str(), state_->target.c_str()) != 0)
-        refuse(state_->path, errno);
+    if (!state_->file.close()) refuse(state_->path, errno);
+}
+
+void OutputFile::publish() {
+    if (state_->direct) return;
+    const HeldSignals held;
+    give_name();
+    if (::rename(state_->name.c_str(), state_->target.c_str()) != 0) refuse(state_->path, errno);
     state_->name.clear();
 }
 
@@ -235,8 +259,12 @@ void OutputFiles::add_folder(const std::string& path) {
         std::error_code error;
         if (name.empty()) continue;  // of a slash at the end
         if (fs::create_directory(folder, error)) made_.push_back(folder.string());
-        if (error) throw InputError("this folder cannot be made: " + error.message(), {path, 0, 0});
+        if (!error) continue;
+        const std::string fault = error == std::errc::file_exists ? fault_of_folder(folder) : "";
+        throw InputError("this folder cannot be made: " + (fault.empty() ? error.message() : fault),
+                         {path, 0, 0});
     }
+    if (::access(path.c_str(), W_OK | X_OK) != 0) refuse(path, errno);
 }
 
 void OutputFiles::add(const std::string& path, std::string text) {
@@ -258,6 +286,8 @@ void OutputFiles::write() {
     for (const auto& [path, text] : texts_)
         if (path == "-") write_out(text);
     finish_out();
+    const HeldSignals held;
+    for (const auto& file : files_) file->give_name();  // what may fail, first
     for (const auto& file : files_) file->publish();
     files_.clear();
     texts_.clear();

@@ -25,6 +25,8 @@ class OutputFile {
     void append(std::string_view text);
     /// Writes all bytes to the disk; only the name is then missing.
     void complete();
+    /// Gives it a hidden name in its folder and closes it; `publish` then only renames it.
+    void give_name();
     void publish();
     const std::string& path() const;
 

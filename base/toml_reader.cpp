@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/utf8_text.h"
+
 namespace trunnion::inline base {
 namespace {
 
@@ -101,7 +103,7 @@ const TomlValue* TomlValue::find(std::string_view key) const {
 }
 
 TomlFile::TomlFile(std::string text, std::string path)
-    : text_(std::move(text)), path_(std::move(path)) {
+    : text_(is_utf16(text) ? utf8_of(text, path) : std::move(text)), path_(std::move(path)) {
     if (const int line = line_of_deep_key(text_); line > 0)
         throw InputError("a key has more than 64 parts", {path_, line, 1}, line_text(line));
     try {

@@ -26,10 +26,14 @@ void append_utf8(std::uint32_t code, std::string& out) {
 
 }  // namespace
 
+bool is_utf16(std::string_view bytes) {
+    return bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF");
+}
+
 std::string utf8_of(const std::string& bytes, const std::string& path) {
     if (bytes.starts_with("\xEF\xBB\xBF")) return bytes.substr(3);
-    const bool little = bytes.starts_with("\xFF\xFE"), big = bytes.starts_with("\xFE\xFF");
-    if (!little && !big) return bytes;
+    if (!is_utf16(bytes)) return bytes;
+    const bool little = bytes.starts_with("\xFF\xFE");
     if (bytes.size() % 2 != 0)
         throw InputError("text in UTF-16 that ends within a character", {path, 1, 1});
     std::string out;

@@ -23,6 +23,33 @@ bool is_call(char letter, int code10, const CheckOptions& options) {
     return own || (options.calls_program && options.calls_program(letter, code10));
 }
 
+/// The known words left for the control after the language has taken G67 and those of M98, M198 or
+/// M99; empty when the words are arguments or belong to a called program, or may do.
+std::optional<interpreter::BlockWords> left_for_control(const interpreter::BlockWords& all,
+                                                        const CheckOptions& options) {
+    const auto has_m = [&](double code) {
+        return std::any_of(all.begin(), all.end(), [code](const interpreter::WordValue& w) {
+            return w.letter == 'M' && !w.vacant && w.value == code;
+        });
+    };
+    const bool call = has_m(98.0) || has_m(198.0), back = has_m(99.0);
+    interpreter::BlockWords left = all;
+    left.count = 0;
+    for (const interpreter::WordValue& w : all) {
+        const bool code_word = w.letter == 'G' || w.letter == 'M';
+        if (w.vacant && code_word) return std::nullopt;
+        const int code = code10_of(w.value);
+        if (w.letter == 'G' && is_call('G', code, options)) return std::nullopt;
+        if (options.calls_program && options.calls_program(w.letter, code)) return std::nullopt;
+        const bool taken = w.letter == '<' || (w.letter == 'G' && code == 670) ||
+                           (w.letter == 'M' && (code == 980 || code == 1980 || code == 990)) ||
+                           ((back || call) && (w.letter == 'P' || w.letter == 'L')) ||
+                           (call && w.letter == 'Q');
+        if (!taken && !w.vacant) left.words[left.count++] = w;
+    }
+    return left;
+}
+
 /// The items that count with the setup's switches of block skip.
 std::span<const Item> items_in_use(const interpreter::ParsedProgram& program,
                                    const interpreter::Block& block, const CheckOptions& options) {
@@ -158,7 +185,7 @@ class SequentialRun {
         words.line = block.line;
         words.byte = block.byte;
         words.sequence_number = block.sequence_number;
-        bool all_known = true, ends = false, skips = false, leaves = false;
+        bool all_known = true, ends = false, skips = false, leaves = false, from_file = false;
         for (const Item& item : items) {
             if (item.kind == ItemKind::skip) continue;
             const bool plain = item.kind == ItemKind::word && item.letter != '<' &&
@@ -170,21 +197,31 @@ class SequentialRun {
             leaves =
                 leaves || is_call(item.letter, code, options_) ||
                 (item.letter == 'T' && options_.calls_program && options_.calls_program('T', 0)) ||
-                (item.letter == 'M' && code == 990) ||
-                (item.letter == 'G' && code == 100 && word_value(program_, block, 'L') == 85.0);
+                (item.letter == 'M' && code == 990);
+            from_file = from_file || (item.letter == 'G' && code == 100 &&
+                                      word_value(program_, block, 'L') == 85.0);
             skips = skips || (item.letter == 'G' && (code == 310 || code == 370));
             ends = ends || (item.letter == 'M' && (code == 300 || code == 20));
             if (item.letter == 'G' && code == 670) continue;  // the language's own
             words.words[words.count++] = {*value, item.letter, item.decimal_point,
                                           interpreter::is_vacant(*value), item.column};
         }
+        leaves = leaves || from_file;
         if (all_known && leaves) refuse_call(words);
+        if (all_known && leaves && !from_file) refuse_before_leaving(words);
         if (!all_known || leaves || (ends && skips)) return Step::unknown;
         if (words.count > 0)
             if (const auto alarm = trial_.run(words)) throw *alarm;
         if (ends)
             if (const auto alarm = trial_.end()) throw *alarm;
         return ends ? Step::end : skips ? Step::unknown : Step::on;
+    }
+
+    /// The control carries out the words of its own before the program is called or left.
+    void refuse_before_leaving(const interpreter::BlockWords& words) const {
+        const auto own = left_for_control(words, options_);
+        if (!own || own->count == 0) return;
+        if (const auto alarm = trial_.run(*own)) throw *alarm;
     }
 
     /// Word rules and the missing program of a call whose words are known.
@@ -241,30 +278,16 @@ void add_alarm(const Alarm& alarm, const CheckSection& section, const interprete
     findings.add(std::move(found));
 }
 
-/// The known words left for the control after the language has taken G67 and those of M98, M198 or
-/// M99; empty when the words are arguments or belong to a called program, or may do.
+/// The same of a block whose words are not all known.
 std::optional<ConstantWords> words_for_control(const interpreter::ParsedProgram& program,
                                                const interpreter::Block& block,
                                                const CheckOptions& options) {
     if (block.kind == interpreter::BlockKind::statements) return std::nullopt;
     auto out = constant_words(program, block);
     if (!out) return std::nullopt;
-    const interpreter::BlockWords all = out->words;
-    const bool back = has_code(program, block, 'M', 990);
-    const bool call = has_code(program, block, 'M', 980) || has_code(program, block, 'M', 1980);
-    out->words.count = 0;
-    for (const interpreter::WordValue& w : all) {
-        const bool code_word = w.letter == 'G' || w.letter == 'M';
-        if (w.vacant && code_word) return std::nullopt;
-        const int code = code10_of(w.value);
-        if (w.letter == 'G' && is_call('G', code, options)) return std::nullopt;
-        if (options.calls_program && options.calls_program(w.letter, code)) return std::nullopt;
-        const bool taken = w.letter == '<' || (w.letter == 'G' && code == 670) ||
-                           (w.letter == 'M' && (code == 980 || code == 1980 || code == 990)) ||
-                           ((back || call) && (w.letter == 'P' || w.letter == 'L')) ||
-                           (call && w.letter == 'Q');
-        if (!taken && !w.vacant) out->words.words[out->words.count++] = w;
-    }
+    const auto left = left_for_control(out->words, options);
+    if (!left) return std::nullopt;
+    out->words = *left;
     return out;
 }
 

@@ -28,29 +28,26 @@ struct BackupCommand {
     std::vector<double> measured_mm;
 };
 
-void print_file(const std::string& name, const std::string& bytes) {
-    print_out("{}\t\t{} bytes\t{}\t{}\n", name, bytes.size(),
-              backup::text_of(backup::standing_of_file(name)), backup::kind_of_file(name, bytes));
+std::string line_of_file(const std::string& name, const std::string& bytes) {
+    return fmt::format("{}\t\t{} bytes\t{}\t{}\n", name, bytes.size(),
+                       backup::text_of(backup::standing_of_file(name)),
+                       backup::kind_of_file(name, bytes));
 }
 
-void print_values(const backup::ControlBackup& backup) {
+std::string values_text(const backup::ControlBackup& backup) {
+    std::string text;
     std::vector<backup::BackupValue> values = backup::list_values(backup);
     backup::name_axes(values);
     for (const backup::BackupValue& v : values) {
         const bool parameter = v.kind == backup::BackupValue::Kind::parameter;
-        print_out("{}\t{}\t{}\t{}\t{}\n", v.file, v.name, v.text,
-                  backup::text_of(backup::standing_of_value(v)),
-                  parameter ? backup::name_of_parameter(v.number) : "");
+        text += fmt::format("{}\t{}\t{}\t{}\t{}\n", v.file, v.name, v.text,
+                            backup::text_of(backup::standing_of_value(v)),
+                            parameter ? backup::name_of_parameter(v.number) : "");
     }
-    for (const auto& [name, bytes] : backup.files) print_file(name, bytes);
+    for (const auto& [name, bytes] : backup.files) text += line_of_file(name, bytes);
     for (const std::string& name : backup::other_files(backup))
-        print_file(name, read_file(backup.folder + "/" + name));
-}
-
-void write_setup(const BackupCommand& c, const offsets::Stores& stores) {
-    OutputFiles out;
-    out.add(c.setup_out, setup::format_setup(setup::setup_of_control(stores, c.a)));
-    out.write();
+        text += line_of_file(name, read_file(backup.folder + "/" + name));
+    return text;
 }
 
 /// Without G54 its zeros would be compared.
@@ -66,9 +63,12 @@ int load(const BackupCommand& c) {
     const backup::ControlBackup backup = backup::read_backup(c.a);
     offsets::Stores stores;
     backup::apply_backup(backup, stores);
-    if (!c.setup_out.empty()) write_setup(c, stores);
+    OutputFiles out;
+    if (!c.setup_out.empty())
+        out.add(c.setup_out, setup::format_setup(setup::setup_of_control(stores, c.a)));
     if (!c.pivot) {
-        print_values(backup);
+        out.add("-", values_text(backup));
+        out.write();
         return exit_done;
     }
     require_g54(backup, c.a);
@@ -76,29 +76,35 @@ int load(const BackupCommand& c) {
     if (!c.measured_mm.empty())
         measured_mm = Vector3(c.measured_mm[0], c.measured_mm[1], c.measured_mm[2]);
     const setup::PivotAgreement agreement = setup::compare_pivots(stores, measured_mm, c.a);
-    print_out("{}\n", setup::text_of(agreement));
+    out.add("-", setup::text_of(agreement) + '\n');
+    out.write();
     return agreement.agrees() ? exit_done : exit_differs;
 }
 
 int save(const std::string& from, const std::string& to, const std::string& setup_path) {
     backup::ControlBackup backup = backup::read_backup(from);
     const auto changed = backup::update_backup(backup, open_setup(setup_path).stores);
-    backup::write_backup(backup, to);
+    OutputFiles out;
+    backup::add_backup_files(backup, to, out);
+    std::string list, notes;
     for (const auto& [name, bytes] : backup.files) {
         const auto count = changed.find(name);
-        print_out(
+        list += fmt::format(
             "{}\t{}\t{}\n", name, backup::kind_of_file(name, bytes),
             count == changed.end() ? "unchanged" : fmt::format("{} values changed", count->second));
     }
     for (const std::string& name : backup::other_files(backup)) {
         const std::string kind = backup::kind_of_file(name, read_file(backup.folder + "/" + name));
-        print_out("{}\t{}\tcopied\n", name, kind);
+        list += fmt::format("{}\t{}\tcopied\n", name, kind);
         if (kind == "binary" && !changed.empty())
-            print_error(
+            notes += fmt::format(
                 "note: {} is copied as it is: an image of a memory in it still holds the "
                 "old values\n",
                 name);
     }
+    out.add("-", list);
+    out.write();
+    print_error("{}", notes);
     return exit_done;
 }
 
@@ -137,7 +143,7 @@ void add_backup(CLI::App& app, Run& run) {
         "save", "write the backup FOLDER to OUT with the values of a setup");
     reads_file(save_word->add_option("FOLDER", o->a, "backup folder that gives the format"))
         ->required();
-    writes_file(save_word->add_option("OUT", o->b, "folder to write"))->required();
+    writes_folder(save_word->add_option("OUT", o->b, "folder to write"))->required();
     reads_file(save_word->add_option("--setup", o->setup, "setup file"))->required();
     save_word->callback([o, &run] { run = [o] { return save(o->a, o->b, o->setup); }; });
 

@@ -149,7 +149,7 @@ void add_ballbar(CLI::App& app, Run& run) {
                         "seed of the noise (1); the second run uses the next one");
     command->add_option("--inject", o->injections,
                         "add an effect to the machine, as in trunnion run");
-    writes_file(command->add_option("--svg", o->svg_folder, "folder for polar plots"));
+    writes_folder(command->add_option("--svg", o->svg_folder, "folder for polar plots"));
     writes_file(command->add_option("--csv", o->csv, "write the table of errors (CSV)"));
     writes_file(command->add_option("--write-readings", o->readings,
                                     "write the readings of the simulated first run (CSV)"));

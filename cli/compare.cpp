@@ -108,13 +108,14 @@ int update(const CompareCommand& c, const regression::Suite& suite) {
             "--update needs --reason \"one line that says why the machining changed\"");
     OutputFiles files;
     const auto goldens = regression::updated_goldens(suite, c.reason, open_setup);
+    std::string list;
     for (const auto& [path, text] : goldens) {
         files.add_folder(std::filesystem::path(path).parent_path().string());
         files.add(path, text);
+        list += fmt::format("written: {}\n", path);
     }
+    files.add("-", goldens.empty() ? "nothing to write: every golden is up to date\n" : list);
     files.write();
-    for (const auto& [path, text] : goldens) print_out("written: {}\n", path);
-    if (goldens.empty()) print_out("nothing to write: every golden is up to date\n");
     return exit_done;
 }
 
@@ -149,6 +150,8 @@ int compare(const CompareCommand& c) {
     const Interruption interruption;
     const SharedLimits limits(c.max_seconds);
     const regression::SuiteCase like = case_of(c, limits);
+    // Equal texts are not run, so nothing else would look for the folders.
+    const interpreter::ProgramFolders exist(c.program_folders);
     if (c.suite.empty() == (c.a.empty() || c.b.empty()) || (!c.suite.empty() && !c.a.empty()))
         throw InputError("compare needs two programs, two folders or --suite FILE");
     if (c.update && c.suite.empty()) throw InputError("--update requires --suite");

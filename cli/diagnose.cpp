@@ -100,9 +100,9 @@ int diagnose_command(const DiagnoseOptions& options) {
         files.add(options.page.html,
                   finished_page(report::diagnosis_page(result, title_of(options.readings)),
                                 *options.command, options.page));
-    if (options.json) files.add("-", report::diagnosis_json(result, ReadRecord::files()));
+    files.add("-", options.json ? report::diagnosis_json(result, ReadRecord::files())
+                                : report::diagnosis_text(result));
     files.write();
-    if (!options.json) print_out("{}", report::diagnosis_text(result));
     if (meter.reached() != BudgetLimit::none) return report_unfinished(result, meter.reached());
     return options.limit_um && result.excess_um > *options.limit_um ? exit_differs : exit_done;
 }

@@ -96,7 +96,7 @@ class HelpForm : public CLI::Formatter {
 std::string value_word(const CLI::Option& option) {
     if (option.get_expected_max() == 0 || option.get_type_size() == 0) return {};
     const std::string type = option.get_type_name();
-    if (type.starts_with("FILE") || type.starts_with("OUTFILE")) return "FILE";
+    if (type.starts_with("FILE") || type.starts_with("OUT")) return "FILE";
     if (type.starts_with("UINT") || type.starts_with("INT")) return "N";
     if (type.starts_with("FLOAT")) return "NUMBER";
     return "TEXT";

@@ -56,22 +56,22 @@ int planned(int runs, const regression::Shard& shard) {
     return (runs - shard.index + shard.count) / shard.count;
 }
 
-/// Prints the values to enter for the axis locations, if they were fitted and the control has
-/// stores for them.
-void print_stores(const setup::Setup& identified, const identification::Identification& result) {
+/// The values to enter for the axis locations, if they were fitted and the control has stores for
+/// them.
+std::string stores_text(const setup::Setup& identified,
+                        const identification::Identification& result) {
     const bool located =
         std::any_of(result.parameters.begin(), result.parameters.end(),
                     [](const identification::FitParameter& p) { return p.location.has_value(); });
-    if (!located || identified.artefacts.empty()) return;
+    if (!located || identified.artefacts.empty()) return {};
     const Vector3 tip_S_mm = identified.probe     ? identified.probe->tip_S_mm
                              : identified.ballbar ? identified.ballbar->cup_S_mm
                                                   : Vector3(0, 0, -150);
     const auto stores = setup::stores_to_type(identified, identified.machine,
                                               identified.artefacts.front().center_W_mm, tip_S_mm);
-    if (stores)
-        print_out("{}",
-                  report::stores_text(*stores, identified.dialect.family,
-                                      report::undetermined_stores(identified, result.parameters)));
+    if (!stores) return {};
+    return report::stores_text(*stores, identified.dialect.family,
+                               report::undetermined_stores(identified, result.parameters));
 }
 
 /// Shows how far it is; a limit leaves what the repetitions done so far say.
@@ -176,12 +176,10 @@ int identify_command(const IdentifyOptions& options) {
     if (!options.out.empty()) files.add(options.out, setup::format_setup(result.setup));
     if (!options.page.html.empty())
         files.add(options.page.html, page_of(options, result, in.table));
-    if (options.json) files.add("-", report::identification_json(result, ReadRecord::files()));
+    files.add("-", options.json ? report::identification_json(result, ReadRecord::files())
+                                : report::identification_text(result, repetitions.size() > 1) +
+                                      stores_text(result.setup, result));
     files.write();
-    if (!options.json) {
-        print_out("{}", report::identification_text(result, repetitions.size() > 1));
-        print_stores(result.setup, result);
-    }
     return report_done(result, repetitions.size(), options.runs, meter.reached());
 }
 

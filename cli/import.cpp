@@ -115,7 +115,7 @@ void add_import(CLI::App& app, Run& run) {
     writes_file(command->add_option("--out", options->out, "write the readings (CSV)"))->required();
     reads_file(
         command->add_option("--map", options->map, "kind table: file that assigns the columns"));
-    writes_file(command->add_option("--svg", options->svg, "kind iso230-2: folder for pictures"));
+    writes_folder(command->add_option("--svg", options->svg, "kind iso230-2: folder for pictures"));
     command
         ->add_option("--with", options->told,
                      "facts that the files do not contain: 'unit=um', 'axis=X' (docs/readings.md)")

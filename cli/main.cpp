@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
@@ -113,6 +114,8 @@ std::string no_such_command(const NamedCommand& named) {
     std::vector<std::string> names;
     for (const CLI::App* command : named.command->get_subcommands({}))
         names.push_back(command->get_name());
+    if (named.unknown.empty())
+        return fmt::format("a command is missing: {}", fmt::join(names, ", "));
     return fmt::format("there is no command '{}'{}", named.unknown,
                        did_you_mean(named.unknown, names));
 }
@@ -192,6 +195,7 @@ int run_guarded(const CLI::App& app, const Run& run) {
     if (tells_inputs(app) || talk() == Talk::verbose) record.emplace();
     try {
         refuse_clashing_files(app);
+        refuse_unwritable_files(app);
         const WaitLimits waits(time_limit_s(app), Interruption::asked);
         const auto begin = std::chrono::steady_clock::now();
         const int code = run();
@@ -237,7 +241,10 @@ int parse_and_run(int argc, char** argv) {
     } catch (const CLI::Success& asked) {
         return show_help(app, asked);
     } catch (const CLI::ParseError& e) {
-        return report_usage_error(no_such_option(*named.command, words, e.what()));
+        const bool lacks_command =
+            e.get_name() == "RequiredError" && !named.command->get_subcommands({}).empty();
+        const std::string says = lacks_command ? no_such_command(named) : e.what();
+        return report_usage_error(no_such_option(*named.command, words, says));
     }
     return run_guarded(app, run);
 }
@@ -250,8 +257,11 @@ using namespace trunnion;
 
 namespace {
 
-/// The only object that the two handlers below share.
+/// The only object that the handlers below share.
 std::atomic<bool> memory_is_missing = false;
+
+constexpr const char* not_enough_memory =
+    "trunnion: there is not enough memory (--max-memory, or this computer)\n";
 
 void note_missing_memory() {
     memory_is_missing = true;
@@ -269,7 +279,19 @@ void note_missing_memory() {
     } catch (...) {
     }
     if (!memory_is_missing) std::abort();
-    write_error("trunnion: there is not enough memory (--max-memory, or this computer)\n");
+    write_error(not_enough_memory);
+    std::_Exit(exit_limit);
+}
+
+/// nlohmann::json 3.11.2 and lists in braces of GCC 12 destroy what could not be made, by a null
+/// pointer, where memory is missing: that is a limit, too. Any other fault happens again at the
+/// return, without this handler.
+void end_at_missing_object(int signal) {
+    if (!memory_is_missing) {
+        std::signal(signal, SIG_DFL);
+        return;
+    }
+    write_error(not_enough_memory);
     std::_Exit(exit_limit);
 }
 
@@ -290,11 +312,12 @@ int main(int argc, char** argv) {
     keep_freed_memory();
     std::set_new_handler(note_missing_memory);
     std::set_terminate(end_without_memory);
+    std::signal(SIGSEGV, end_at_missing_object);
     prepare_streams();
     try {
         return cli::parse_and_run(argc, argv);
     } catch (const std::bad_alloc&) {
-        write_error("trunnion: there is not enough memory (--max-memory, or this computer)\n");
+        write_error(not_enough_memory);
         return exit_limit;
     } catch (const InputError& e) {  // of the help
         return cli::report_input_error(e);

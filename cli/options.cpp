@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <filesystem>
 
 #include "base/alarm.h"
 #include "base/numbers.h"
+#include "base/output_files.h"
 
 namespace trunnion::cli {
 namespace {
@@ -17,9 +19,17 @@ namespace fs = std::filesystem;
 
 constexpr const char* read_type = "FILE";
 constexpr const char* written_type = "OUTFILE";
+constexpr const char* folder_type = "OUTFOLDER";
 
 std::string finite_number(const std::string& text) {
     return parse_number(text) ? "" : "'" + text + "' is not a finite number";
+}
+
+std::string integer(const std::string& text) {
+    int value = 0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, fault] = std::from_chars(text.data(), end, value);
+    return fault == std::errc{} && stop == end ? "" : "'" + text + "' is not a whole number";
 }
 
 std::string count(const std::string& text) {
@@ -37,21 +47,22 @@ std::string has_name(const std::string& path) {
 struct NamedFile {
     std::string option, text;
     fs::path path;
-    bool written = false;
+    bool written = false, folder = false;
 };
 
 std::vector<NamedFile> files_named(const CLI::App& command) {
     std::vector<NamedFile> files;
     for (const CLI::Option* option : command.get_options()) {
         const std::string type = option->get_type_name();
-        if (type != read_type && type != written_type) continue;
+        if (type != read_type && type != written_type && type != folder_type) continue;
         for (const std::string& text : option->results()) {
             std::error_code unknown;
-            const bool written = type == written_type;
-            const fs::path path = text != "-" ? fs::weakly_canonical(text, unknown)
-                                  : written   ? fs::path("standard output")
-                                              : fs::path("standard input");
-            files.push_back({option->get_name(), text, path, written});
+            const bool written = type != read_type;
+            const fs::path path = text != "-"
+                                      ? fs::weakly_canonical(fs::absolute(text, unknown), unknown)
+                                  : written ? fs::path("standard output")
+                                            : fs::path("standard input");
+            files.push_back({option->get_name(), text, path, written, type == folder_type});
         }
     }
     return files;
@@ -83,6 +94,10 @@ CLI::Option* writes_file(CLI::Option* option) {
     return option->type_name(written_type)->check(has_name);
 }
 
+CLI::Option* writes_folder(CLI::Option* option) {
+    return option->type_name(folder_type)->check(has_name);
+}
+
 CLI::Option* not_negative(CLI::Option* option) {
     return option->check([](const std::string& text) {
         const auto value = parse_number(text);
@@ -95,6 +110,7 @@ void check_numbers(CLI::App& app) {
         const std::string type = option->get_type_name();
         if (type.starts_with("FLOAT")) option->check(finite_number);
         if (type.starts_with("UINT")) option->check(count);
+        if (type.starts_with("INT")) option->check(integer);
     }
     for (CLI::App* command : app.get_subcommands({})) check_numbers(*command);
 }
@@ -112,6 +128,26 @@ void refuse_clashing_files(const CLI::App& app) {
                                                                 files[i].option, files[k].option),
                                  {files[i].text, 0, 0});
     for (const CLI::App* command : app.get_subcommands()) refuse_clashing_files(*command);
+}
+
+void refuse_unwritable_files(const CLI::App& app) {
+    const std::vector<NamedFile> files = files_named(app);
+    const bool makes_folders =
+        std::any_of(files.begin(), files.end(), [](const NamedFile& file) { return file.folder; });
+    for (const NamedFile& file : files) {
+        std::error_code unknown;
+        const fs::file_status status = fs::status(file.text, unknown);
+        if (!file.written || file.text == "-" || file.text.find("{i}") != std::string::npos)
+            continue;
+        const bool device =
+            fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+        const bool made_later = makes_folders && !fs::exists(file.path.parent_path(), unknown);
+        if (file.folder)
+            OutputFiles().add_folder(file.text);  // it goes again
+        else if (!device && !made_later)
+            OutputFile(file.text);  // never published
+    }
+    for (const CLI::App* command : app.get_subcommands()) refuse_unwritable_files(*command);
 }
 
 }  // namespace trunnion::cli

@@ -60,7 +60,8 @@ setup::Setup setup_of(const PivotOptions& o) {
 }
 
 bool is_table(const std::string& text) {
-    return text.starts_with("#") || text.starts_with("index,");
+    return text.starts_with("#") || text.starts_with("index,") || text.starts_with("index\t") ||
+           text.starts_with("index;");
 }
 
 /// Converts prints and tables of readings into error maps.
@@ -70,9 +71,9 @@ pivot::PivotPrints read_maps(const PivotOptions& o, const setup::Setup& setup,
     std::vector<pivot::PrintedFile> printed;
     std::vector<records::ReadingTable> tables;
     for (const std::string& path : o.readings) {
-        std::string text = utf8_of(read_file(path), path);
+        std::string text = utf8_of(read_file_or_input(path), path);
         if (is_table(text))
-            tables.push_back(load_readings(path, setup));
+            tables.push_back(parse_readings(text, path, setup));
         else
             printed.push_back({path, std::move(text)});
     }
@@ -105,7 +106,9 @@ std::vector<std::pair<std::string, std::vector<std::string>>> shop_programs(
     const std::string& folder, Axis first, Axis second) {
     std::vector<std::pair<std::string, std::vector<std::string>>> found;
     if (folder.empty()) return found;
-    if (!fs::is_directory(folder)) throw InputError("no such folder", {folder});
+    if (!fs::is_directory(folder))
+        throw InputError(fs::exists(folder) ? "is a file, not a folder" : "no such folder",
+                         {folder});
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
         if (!entry.is_regular_file() || entry.file_size() > 100'000'000) continue;
         const std::string path = entry.path().string();
@@ -267,14 +270,14 @@ void add_pivot(CLI::App& app, Run& run) {
                                    "backup folder of a real control, which gives the stores"));
     reads_file(command->add_option("--programs", o->shop_programs,
                                    "folder of your programs: list those affected"));
-    writes_file(command->add_option("--write-programs", o->programs_folder,
-                                    "only write the NC programs of the test for this machine"));
+    writes_folder(command->add_option("--write-programs", o->programs_folder,
+                                      "only write the NC programs of the test for this machine"));
     writes_file(command->add_option("--print", o->print, "file for the output of the programs"));
     command->add_option("--seed", o->seed, "seed of the noise of the probe (1)");
     not_negative(command->add_option(
         "--limit-um", o->limit_um,
         "largest error that a store may cause without being called stale, um (3)"));
-    writes_file(command->add_option("--svg", o->svg_folder, "folder for pictures"));
+    writes_folder(command->add_option("--svg", o->svg_folder, "folder for pictures"));
     command->add_flag("--stores", o->stores_alone,
                       "do not run the test: compare the stores with the machine of the setup");
     command->add_flag("--json", o->json, "print the result as one JSON object");

@@ -8,12 +8,17 @@
 
 namespace trunnion::cli {
 
-records::ReadingTable load_readings(const std::string& path, const setup::Setup& setup) {
+records::ReadingTable parse_readings(const std::string& text, const std::string& path,
+                                     const setup::Setup& setup) {
     std::vector<std::string> notes;
     records::ReadingTable table =
-        records::parse_readings(read_file_or_input(path), path, notes, setup.machine.chain.names());
+        records::parse_readings(text, path, notes, setup.machine.chain.names());
     print_notes(notes);
     return table;
+}
+
+records::ReadingTable load_readings(const std::string& path, const setup::Setup& setup) {
+    return parse_readings(read_file_or_input(path), path, setup);
 }
 
 records::ReadingTable load_readings(const std::vector<std::string>& paths,

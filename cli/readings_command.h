@@ -12,6 +12,9 @@ namespace trunnion::cli {
 /// Reads a table of readings of the setup's machine; notes are printed on stderr. Throws InputError
 /// with path and line.
 records::ReadingTable load_readings(const std::string& path, const setup::Setup& setup);
+/// The same of a text that was read from `path`.
+records::ReadingTable parse_readings(const std::string& text, const std::string& path,
+                                     const setup::Setup& setup);
 /// The same for several files, joined in the given order.
 records::ReadingTable load_readings(const std::vector<std::string>& paths,
                                     const setup::Setup& setup);

@@ -74,11 +74,11 @@ int run_command(const VolumetricCommandOptions& o) {
     }
     if (!o.page.html.empty() && whole)
         files.add(o.page.html, finished_page(report::volumetric_page(map), *o.command, o.page));
-    files.write();
     if (o.json)
-        print_out("{}", report::volumetric_json(map, ReadRecord::files()));
+        files.add("-", report::volumetric_json(map, ReadRecord::files()));
     else if (o.csv != "-")
-        print_out("{}", report::volumetric_text(map));
+        files.add("-", report::volumetric_text(map));
+    files.write();
     if (whole) return exit_done;
     print_error("trunnion: {}: these are the first {} poses of the grid{}\n",
                 reason_of(meter.reached()), map.points.size(),
@@ -101,7 +101,7 @@ void add_volumetric(CLI::App& app, Run& run) {
                         "number of angles of each rotary axis (5; 1: zero only)");
     not_negative(command->add_option("--length", o->map.length_mm, "tool length, mm (150)"));
     writes_file(command->add_option("--csv", o->csv, "write every pose with its error (CSV)"));
-    writes_file(command->add_option(
+    writes_folder(command->add_option(
         "--svg", o->svg, "folder for pictures: one for each height, and one of the axes"));
     command->add_flag("--json", o->json, "print the result as one JSON object");
     not_negative(command->add_option("--max-seconds", o->time_s,

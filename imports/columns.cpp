@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 #include "base/alarm.h"
 #include "base/numbers.h"
@@ -93,7 +94,7 @@ NumberColumn number_column(const TextTable& table, std::size_t index, Quantity q
     const bool parts =
         quantity == Quantity::angle && (unit->factor == find_unit_of_angle("deg")->factor ||
                                         unit->factor == find_unit_of_angle("h")->factor);
-    return {index, unit->factor, parts};
+    return {index, unit->factor, parts, quantity != Quantity::time};
 }
 
 namespace {
@@ -123,7 +124,12 @@ double number_in(const TextTable& table, std::size_t row,
                  const std::vector<records::TableCell>& cells, const NumberColumn& column) {
     const records::TableCell& cell = cells[column.index];
     const std::string& name = table.columns()[column.index].name;
-    if (const auto value = table.find_number(cell.text)) return *value * column.factor;
+    if (const auto value = table.find_number(cell.text)) {
+        const double number = *value * column.factor;
+        if (column.limited && std::abs(number) > largest_number)
+            table.line(row).fail(beyond_largest, cell.column);
+        return number;
+    }
     if (column.sexagesimal)
         if (const auto value = from_sexagesimal(cell.text)) return *value * column.factor;
     const std::size_t cut = cell.text.find_first_not_of("+-0123456789.,eE ");

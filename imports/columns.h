@@ -38,7 +38,12 @@ struct NumberColumn {
     std::size_t index = 0;
     double factor = 1.0;       ///< to mm, rad or s
     bool sexagesimal = false;  ///< degrees or hours, which may be written as -12:34:56.7
+    bool limited = false;      ///< to `largest_number`: not for seconds since 1970
 };
+/// mm, rad, mm/s: the reader accepts at most 1e9 mm or degrees (records/table_line.h).
+constexpr double largest_number = 1e7;
+constexpr const char* beyond_largest =
+    "a number beyond 1e7 mm, rad or s: is it the right column and unit?";
 /// The unit comes from the column, else from `otherwise`; throws InputError when neither gives it,
 /// or when it belongs to another quantity.
 NumberColumn number_column(const TextTable& table, std::size_t index, Quantity quantity,
@@ -47,7 +52,7 @@ NumberColumn number_column(const TextTable& table, std::size_t index, Quantity q
 std::optional<std::size_t> find_first_column(const TextTable& table,
                                              const std::vector<std::vector<std::string>>& lists);
 /// One number; of degrees or hours also -12:34:56.7 (minutes and seconds below 60). An empty cell,
-/// or a unit after the number, throws InputError with its position.
+/// a number beyond the limit of its column, or a unit after it throws InputError with its position.
 double number_in(const TextTable& table, std::size_t row,
                  const std::vector<records::TableCell>& cells, const NumberColumn& column);
 

@@ -3,8 +3,10 @@
 #include <set>
 #include <utility>
 
+#include "base/alarm.h"
 #include "base/utf8_text.h"
 #include "imports/file_tables.h"
+#include "records/table_line.h"
 
 namespace trunnion::imports {
 
@@ -17,6 +19,22 @@ std::vector<TextTable> tables_of(const ImportRequest& request, std::vector<std::
     return all;
 }
 
+namespace {
+
+/// An error in a line of one of the files shows this line.
+[[noreturn]] void fail_with_line(InputError error, const std::vector<ImportFile>& files) {
+    for (const ImportFile& file : files) {
+        if (file.path != error.where.program || !error.line_text.empty()) continue;
+        std::string_view rest = file.text, line;
+        for (int number = 0; number < error.where.line && !rest.empty(); ++number)
+            line = records::take_line(rest);
+        error.line_text = line;
+    }
+    throw InputError(error);
+}
+
+}  // namespace
+
 Imported import_readings(ImportKind kind, const ImportRequest& request) {
     using Function = Imported (*)(const ImportRequest&);
     static constexpr Function functions[] = {import_ballbar,  import_iso230_2, import_points,
@@ -25,8 +43,14 @@ Imported import_readings(ImportKind kind, const ImportRequest& request) {
     std::vector<ImportFile> files;
     for (const ImportFile& file : request.files)
         files.push_back({file.path, utf8_of(file.text, file.path)});
-    Imported result = functions[static_cast<std::size_t>(kind)](
-        {request.setup, files, request.facts, request.map});
+    Imported result = [&] {
+        try {
+            return functions[static_cast<std::size_t>(kind)](
+                {request.setup, files, request.facts, request.map});
+        } catch (const InputError& error) {
+            fail_with_line(error, files);
+        }
+    }();
     std::set<std::string> said;
     std::erase_if(result.notes, [&](const std::string& note) { return !said.insert(note).second; });
     return result;

@@ -18,9 +18,6 @@ constexpr double night_s = 4.0 * 3600.0;  ///< a longer pause starts a new sessi
 /// Time between rows with different positions but equal time stamps.
 constexpr double shortest_s = 1e-6;
 
-/// mm, rad, mm/s: the reader accepts at most 1e9 mm or degrees (records/table_line.h).
-constexpr double largest = 1e7;
-
 /// An impossible number is caused by wrong columns or units; a table with it would not be readable.
 void refuse_huge(const records::Reading& row, const SourceRef& place) {
     bool huge = false;
@@ -28,12 +25,10 @@ void refuse_huge(const records::Reading& row, const SourceRef& place) {
          {row.time_s, row.feed_mm_min, row.temperature_c, row.load_kg, row.extension_mm,
           row.value_mm.value_or(0.0), row.velocity_mm_s.value_or(0.0), row.sigma_mm.value_or(0.0),
           row.acceleration_mm_s2.value_or(0.0)})
-        huge = huge || std::abs(v) > largest;
-    if (row.point_W_mm) huge = huge || row.point_W_mm->cwiseAbs().maxCoeff() > largest;
-    for (const double q : row.commanded.value) huge = huge || std::abs(q) > largest;
-    if (huge)
-        throw InputError("a number beyond 1e7 mm, rad or s: is it the right column and unit?",
-                         place);
+        huge = huge || std::abs(v) > largest_number;
+    if (row.point_W_mm) huge = huge || row.point_W_mm->cwiseAbs().maxCoeff() > largest_number;
+    for (const double q : row.commanded.value) huge = huge || std::abs(q) > largest_number;
+    if (huge) throw InputError(beyond_largest, place);
 }
 
 std::string file_name_of(const std::string& path) {

@@ -77,7 +77,11 @@ ProgramAndFolders open_program(const std::string& name, std::vector<std::string>
         const interpreter::ProgramText text = interpreter::read_main_program(name);
         return {text, folders_of_file(text, std::move(folders))};
     }
-    if (!number) throw InputError("no such program, or it cannot be read", {name, 0, 0});
+    if (!number)
+        throw InputError(found.type() == fs::file_type::not_found
+                             ? "no such program"
+                             : "cannot be read: " + unknown.message(),
+                         {name, 0, 0});
     interpreter::ProgramFolders source = with_shipped(folders);
     if (!source.holds_own(*number)) {  // called by number: a shipped program may be used
         const std::vector<std::string> ours = shipped_folders();

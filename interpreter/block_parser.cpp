@@ -64,11 +64,14 @@ bool BlockParser::item(char c) {
     if (is_digit(c) || c == '.') raise_language_alarm(4, column, in_.blank_inside_number());
     if (c == '+' || c == '-') raise_language_alarm(6, column);
     if (c == '[' || c == ']' || c == '*') raise_language_alarm(114, column);
-    if (!is_letter(c))
+    if (!is_letter(c)) {
+        const bool utf16 = c == '\xFF' || c == '\xFE';  // bytes of no other text
         raise_language_alarm(9, column,
-                             c == '=' || c == '<' || c == '>' ? "stray character, "
-                                                                "a merge marker?"
-                                                              : "stray character");
+                             utf16 ? "stray character: save a text in UTF-16 as plain text"
+                             : c == '=' || c == '<' || c == '>' ? "stray character, "
+                                                                  "a merge marker?"
+                                                                : "stray character");
+    }
     const Keyword keyword = read_keyword(in_.p, in_.end);
     if (keyword != Keyword::none) return statement(keyword, column), true;
     word(c);

@@ -162,7 +162,9 @@ ProgramFolders::ProgramFolders(std::vector<std::string> folders,
     for (const Shelf& shelf : shelves_)
         for (const std::string& folder : shelf.folders)
             if (std::error_code unknown; !fs::is_directory(folder, unknown))
-                throw InputError("no such program folder", {folder, 0, 0});
+                throw InputError(fs::exists(folder, unknown) ? "is a file, not a program folder"
+                                                             : "no such program folder",
+                                 {folder, 0, 0});
 }
 
 void ProgramFolders::add_file(const ProgramText& file) {

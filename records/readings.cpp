@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/alarm.h"
+#include "base/utf8_text.h"
 #include "records/reading_columns.h"
 #include "records/table_line.h"
 
@@ -16,7 +17,15 @@ using Cells = std::vector<TableCell>;
 struct Header {
     std::vector<StoreCell> stores;
     std::size_t time_cell = 0;
+    char separator = ',';
 };
+
+/// Spreadsheets separate columns also by tabs and semicolons.
+char separator_of(std::string_view header) {
+    for (const char c : {',', '\t', ';'})
+        if (header.find(c) != std::string_view::npos) return c;
+    return ',';
+}
 
 StoreCell store_of(const TableLine& line, const TableCell& cell, ReadingTable& table) {
     if (const ReadingColumn* column = find_reading_column(cell.text)) {
@@ -35,6 +44,9 @@ bool stands(const Cells& cells, std::string_view name) {
 }
 
 void check_header(const TableLine& line, const Cells& cells, const ReadingTable& table) {
+    if (std::none_of(cells.begin(), cells.end(),
+                     [](const TableCell& cell) { return find_reading_column(cell.text); }))
+        line.fail("no header line: this is not a table of readings (trunnion import makes one)", 1);
     for (std::size_t i = 0; i < cells.size(); ++i)
         for (std::size_t k = 0; k < i; ++k)
             if (cells[i].text == cells[k].text)
@@ -66,8 +78,9 @@ Header read_header(const TableLine& line, const Cells& cells, ReadingTable& tabl
 void read_comment(std::string_view text, ReadingTable& table) {
     const auto equal = text.find('=');
     if (equal == std::string_view::npos) return;
+    text = text.substr(0, text.find_last_not_of(",; \t") + 1);  // empty cells of a spreadsheet
     table.comment[std::string(without_blanks(text.substr(1, equal - 1)))] =
-        without_blanks(text.substr(equal + 1));
+        without_blanks(text.substr(std::min(equal + 1, text.size())));
 }
 
 void check_schema(const TableLine& line, const ReadingTable& table) {
@@ -162,6 +175,8 @@ ReadingTable parse_readings(std::string_view text, const std::string& path,
     Header header;
     Cells cells;
     TableLine line{{}, 0, path}, side;
+    const std::string converted = is_utf16(text) ? utf8_of(std::string(text), path) : "";
+    if (is_utf16(text)) text = converted;
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
     while (!text.empty()) {
         line.text = take_line(text);
@@ -173,11 +188,15 @@ ReadingTable parse_readings(std::string_view text, const std::string& path,
             check_schema(line, table);
             continue;
         }
-        line.split(',', cells);
-        if (header.stores.empty())
+        if (header.stores.empty()) {
+            const char separator = separator_of(line.text);
+            line.split(separator, cells);
             header = read_header(line, cells, table, notes);
-        else
-            table.rows.push_back(read_row(line, cells, header, table));
+            header.separator = separator;
+            continue;
+        }
+        line.split(header.separator, cells);
+        table.rows.push_back(read_row(line, cells, header, table));
     }
     if (header.stores.empty())
         throw InputError("no header line: this is not a table of readings", {path, 1, 1});

@@ -74,7 +74,8 @@ bool only_angles(const ReadingTable& table);
 /// µm in a mm, or µrad in a rad where all readings are angles.
 double micro_per_one(const ReadingTable& table);
 
-/// Parses the CSV text of a machine with axes `names`. Throws InputError with line and column for a
+/// Parses the CSV text (columns also separated by tabs or semicolons, also UTF-16, as spreadsheets
+/// save them) of a machine with axes `names`. Throws InputError with line and column for a
 /// cell that is not a number, a row that does not fit its device (direction not a unit vector,
 /// degrees instead of mm, an axis without column), a column of an axis that the machine lacks, or
 /// decreasing time. Unknown columns are listed in `notes`.

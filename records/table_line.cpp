@@ -59,7 +59,8 @@ void TableLine::split(char separator, std::vector<TableCell>& cells) const {
 Finite TableLine::number_of(const TableCell& cell, std::string_view what) const {
     const auto value = parse_number(cell.text);
     if (!value)
-        fail(std::string(what) + ": '" + std::string(cell.text) + "' is not a finite number",
+        fail(std::string(what) + ": '" + std::string(cell.text) + "' is not a finite number" +
+                 (cell.text.find(',') != std::string_view::npos ? " (write a decimal point)" : ""),
              cell.column);
     constexpr double largest = 1e9;  // mm, deg, s, mm/min: larger values overflow in squares and
                                      // products

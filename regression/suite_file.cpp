@@ -61,15 +61,14 @@ class SuiteReader {
         suite_.name = file_.path();
         const TomlValue* schema = file_.root().find("schema");
         if (schema == nullptr || file_.text(*schema) != "trunnion.suite/1")
-            throw InputError("a suite begins with schema = \"trunnion.suite/1\"",
-                             {file_.path(), 1, 1});
+            file_.fail(schema != nullptr ? *schema : file_.root(),
+                       "a suite begins with schema = \"trunnion.suite/1\"");
         read_options(file_.root(), like_);
         if (const TomlValue* cases = file_.root().find("case"))
             for (const TomlValue& c : cases->items) read_case(c);
         if (const TomlValue* expected = file_.root().find("expected"))
             for (const TomlValue& e : expected->items) read_expected(e);
         if (suite_.cases.empty()) file_.fail(file_.root(), "the suite has no [[case]]");
-        refuse_doubles();
         return std::move(suite_);
     }
 
@@ -151,7 +150,15 @@ class SuiteReader {
             c.a = path_of(against);
             if (fs::is_directory(c.a)) c.a += "/" + fs::path(program).filename().string();
         }
+        refuse_double(table, c);
         suite_.cases.push_back(std::move(c));
+    }
+
+    /// At the name of the second case, or at the case whose programs give it.
+    void refuse_double(const TomlValue& table, const SuiteCase& c) {
+        if (names_.insert(c.name).second) return;
+        const TomlValue* name = table.find("name");
+        file_.fail(name != nullptr ? *name : table, "two cases have the name '" + c.name + "'");
     }
 
     std::vector<std::string> expand(const std::string& pattern) const {
@@ -179,23 +186,19 @@ class SuiteReader {
         suite_.expected.push_back(std::move(e));
     }
 
-    void refuse_doubles() const {
-        std::set<std::string> names;
-        for (const SuiteCase& c : suite_.cases)
-            if (!names.insert(c.name).second)
-                throw InputError("two cases have the name '" + c.name + "'", {file_.path(), 0, 0});
-    }
-
     const TomlFile& file_;
     fs::path folder_;
     SuiteCase like_;
+    std::set<std::string> names_;
     Suite suite_;
 };
 
 }  // namespace
 
 std::set<std::string> programs_below(const std::string& folder) {
-    if (!fs::is_directory(folder)) throw InputError("no such folder", {folder, 0, 0});
+    if (!fs::is_directory(folder))
+        throw InputError(fs::exists(folder) ? "is a file, not a folder" : "no such folder",
+                         {folder, 0, 0});
     std::set<std::string> names;
     for (const auto& entry : fs::recursive_directory_iterator(folder))
         if (is_regular(entry) && is_program(entry.path()))

@@ -302,8 +302,9 @@ std::string format_part(const ComparePart& part) {
 }
 
 ComparePart parse_part(const std::string& text, const std::string& path) {
+    const std::string refusal = "not a part written by 'compare --shard' or 'identify --shard'";
+    const Json j = json_of_file(text, path, refusal);
     try {
-        const Json j = Json::parse(text);
         if (j.at("schema") != "trunnion.compare-part/1") throw InputError("another schema");
         ComparePart part;
         part.report.suite = j.at("suite");
@@ -318,8 +319,10 @@ ComparePart parse_part(const std::string& text, const std::string& path) {
         }
         part.report.inputs = inputs_of(j);
         return part;
-    } catch (const std::exception&) {
-        throw InputError("not a part written by 'compare --shard' or 'identify --shard'", {path});
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& fault) {
+        throw InputError(refused_form(refusal, fault), {path});
     }
 }
 

@@ -202,10 +202,14 @@ bool is_repetition_part(const std::string& text) {
 }
 
 RepetitionPart parse_repetition_part(const std::string& text, const std::string& path) {
+    const std::string refusal = "not a part written by 'identify --shard'";
+    const Json json = json_of_file(text, path, refusal);
     try {
-        return parse_part_json(Json::parse(text));
-    } catch (const std::exception&) {
-        throw InputError("not a part written by 'identify --shard'", {path});
+        return parse_part_json(json);
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& fault) {
+        throw InputError(refused_form(refusal, fault), {path});
     }
 }
 

@@ -27,6 +27,13 @@ void add_inputs(nlohmann::ordered_json& json, const std::vector<FileRead>& input
 /// What add_inputs wrote; throws nlohmann's exceptions for another form.
 std::vector<FileRead> inputs_of(const nlohmann::ordered_json& json);
 
+/// The JSON of the file `path`. Throws InputError that begins with `refusal`, at the place of the
+/// fault, for text that is not JSON.
+nlohmann::ordered_json json_of_file(const std::string& text, const std::string& path,
+                                    const std::string& refusal);
+/// The refusal of JSON that has another form than expected, with what was found instead.
+std::string refused_form(const std::string& refusal, const std::exception& fault);
+
 /// [x, y, z]
 inline nlohmann::ordered_json vector_json(const Vector3& v) {
     return nlohmann::ordered_json::array({v.x(), v.y(), v.z()});

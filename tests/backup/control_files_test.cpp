@@ -219,19 +219,25 @@ TEST_CASE("two files whose names differ only in case are refused, for one would 
     std::filesystem::remove_all(folder);
 }
 
+static void write_backup(const backup::ControlBackup& backup, const std::string& folder) {
+    OutputFiles files;
+    backup::add_backup_files(backup, folder, files);
+    files.write();
+}
+
 TEST_CASE("files on disk round-trip byte for byte") {
     const auto folder = std::filesystem::temp_directory_path() / "trunnion_backup_test";
     std::filesystem::remove_all(folder);
-    backup::write_backup(sample(), folder.string());
+    write_backup(sample(), folder.string());
     CHECK(backup::read_backup(folder.string()).files == sample().files);
     // A folder that is not there yet, named from where one works.
     const auto here = std::filesystem::current_path();
     std::filesystem::current_path(folder.parent_path());
     std::filesystem::remove_all("trunnion_backup_copy");
-    backup::write_backup(backup::read_backup("trunnion_backup_test"), "trunnion_backup_copy/new");
+    write_backup(backup::read_backup("trunnion_backup_test"), "trunnion_backup_copy/new");
     CHECK(backup::read_backup("trunnion_backup_copy/new").files == sample().files);
-    CHECK_THROWS_AS(backup::write_backup(backup::read_backup("trunnion_backup_test"),
-                                         "trunnion_backup_test/../trunnion_backup_test/x"),
+    CHECK_THROWS_AS(write_backup(backup::read_backup("trunnion_backup_test"),
+                                 "trunnion_backup_test/../trunnion_backup_test/x"),
                     InputError);
     std::filesystem::remove_all("trunnion_backup_copy");
     std::filesystem::current_path(here);

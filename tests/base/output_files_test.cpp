@@ -219,6 +219,26 @@ TEST_CASE("a looping link and a missing folder are refused with the path") {
     CHECK_THROWS_AS(read_file(folder.file("a")), InputError);
 }
 
+TEST_CASE("an output below a file or a missing folder says what stands in the way") {
+    const Folder folder;
+    put(folder.file("part.nc"), "O1\n");
+    const auto says = [](const auto& work) {
+        try {
+            work();
+        } catch (const InputError& error) {
+            return error.message;
+        }
+        return std::string();
+    };
+    const std::string file = "'" + folder.file("part.nc") + "' is a file, not a folder";
+    CHECK(says([&] { OutputFile(folder.file("part.nc/x")); }) == "cannot be written: " + file);
+    CHECK(says([&] { OutputFile("/nowhere/at/all"); }) ==
+          "cannot be written: there is no folder '/nowhere'");
+    for (const char* name : {"part.nc", "part.nc/new"})
+        CHECK(says([&] { OutputFiles().add_folder(folder.file(name)); }) ==
+              "this folder cannot be made: " + file);
+}
+
 // A socket cannot be opened by its name under /proc: the open one is written to.
 TEST_CASE("/dev/stdout is the standard output, whatever that is") {
     int ends[2];

@@ -102,7 +102,8 @@ TEST_CASE("what run refuses when it reaches a block, check refuses", "[check]") 
 }
 
 TEST_CASE("check refuses a word also where it does not carry out the block", "[check]") {
-    const std::string block = GENERATE("M99D6000", "G31K2P1.00005M2");
+    const std::string block =
+        GENERATE("M99D6000", "G31K2P1.00005M2", "G10R30C-0P1M98", "G10L2P1X1.M198");
     INFO(block);
     const auto [alarm, by_check] = judge(block);
     CHECK(refused_by_run(alarm));

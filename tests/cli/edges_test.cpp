@@ -98,6 +98,23 @@ TEST_CASE("parts that lie about their size or their cases are refused at once") 
     bench.refuses("merge " + bench.program, "not a part written");
 }
 
+TEST_CASE("a part that is not JSON is refused at its place, another form with what is wrong") {
+    const Bench bench;
+    const auto says = [&](const std::string& text, const std::string& message) {
+        bench.refuses("merge " + bench.write("p.json", text), message);
+    };
+    const std::string head = "{\n\"schema\":\"trunnion.compare-part/1\",\n";
+    says(head + " \"suite\" 7}\n", "p.json:3:10: error: not a part written by");
+    CHECK_THAT(bench.read("err.txt"), Catch::Contains("\n     \"suite\" 7}\n             ^"));
+    says(head + "\"suite\":",
+         "p.json:3:9: error: not a part written by 'compare --shard' or "
+         "'identify --shard': the file ends too early");
+    says("", "the file is empty");
+    says("\n", "the file is empty");
+    says(head + "\"suite\":\"s\"}", "key 'single' not found");
+    says("{\"schema\":\"trunnion.compare-part/2\"}", "another schema");
+}
+
 TEST_CASE("without a folder for temporary files programs are compared all the same") {
     const Bench bench;
     CHECK(WEXITSTATUS(

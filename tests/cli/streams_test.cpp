@@ -2,7 +2,9 @@
 #include <sys/wait.h>
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "base/sha256.h"
 #include "tests/cli/command_bench.h"
@@ -44,6 +46,43 @@ TEST_CASE("a full disk is told by every command that writes") {
          {"run part.nc --trace /dev/full", "run part.nc --print /dev/full",
           "compensate part.nc --out /dev/full", "check part.nc --out /dev/full"})
         CHECK(bench.shell(std::string("$T ") + words + " > out.txt 2> err.txt") == 2);
+}
+
+TEST_CASE("a full disk under one output leaves none of the others") {
+    const Bench bench;
+    bench.write("machine.toml", "");
+    fs::copy_file(TRUNNION_SOURCE_DIR "/machines/bc_table.toml", bench.file("machine.toml"),
+                  fs::copy_options::overwrite_existing);
+    fs::create_directories(bench.path / "backup");
+    bench.write("backup/MACRO.TXT", "%\nG10L85P500(400C000000000000)\n%\n");
+    bench.write("suite.toml", "schema = \"trunnion.suite/1\"\n[[case]]\nprogram = \"part.nc\"\n");
+    const std::string table =
+        "# schema = trunnion.readings/1\nindex,time_s,test,device,feature,"
+        "x_mm,y_mm,z_mm,b_deg,c_deg,dir_x,dir_y,dir_z,value_mm\n";
+    std::string rows;
+    for (int k = 0; k < 36; ++k) {
+        const double c_rad = k * std::numbers::pi / 18.0;
+        rows += std::to_string(k) + "," + std::to_string(k) + ",t,sphere,S1," +
+                std::to_string(120.0 * std::cos(c_rad)) + "," +
+                std::to_string(-120.0 * std::sin(c_rad)) + ",230,0," + std::to_string(10 * k) +
+                (k % 2 == 0 ? ",1,0,0,0.00" : ",0,1,0,0.00") + std::to_string(k % 7) + "\n";
+    }
+    bench.write("readings.csv", table + rows);
+    bench.write("err.txt", "");
+    const std::size_t before = bench.count();
+    for (const char* words :
+         {"volumetric --grid 2 --rotary-grid 1 --csv v.csv --svg pictures --html v.html",
+          "volumetric --grid 2 --rotary-grid 1 --csv v.csv --json",
+          "identify readings.csv --setup machine.toml --effects C.backlash --out s.toml --html "
+          "s.html",
+          "diagnose readings.csv --setup machine.toml --out s.toml --html s.html",
+          "backup save backup copy --setup machine.toml",
+          "compare --suite suite.toml --update --reason new"}) {
+        INFO(words);
+        CHECK(bench.shell(std::string("$T ") + words + " > /dev/full 2> err.txt") == 2);
+        CHECK_THAT(bench.read("err.txt"), Catch::Contains("No space left on device"));
+        CHECK(bench.count() == before);
+    }
 }
 
 TEST_CASE("closed streams end in an exit code and write into no file of the user") {

@@ -195,6 +195,44 @@ TEST_CASE("a place that cannot be written is bad input, and nothing stays behind
     CHECK(fs::is_character_file("/dev/null"));
 }
 
+TEST_CASE("an output that has no place is refused before the work") {
+    const Bench bench;
+    const std::string out = bench.file("nowhere/x"), below = bench.program + "/x";
+    for (const char* option : {"--trace", "--print", "--readings", "--html"})
+        bench.refuses("run " + bench.program + " " + option + " " + out, "there is no folder");
+    // The table has no rows: the output is looked at first.
+    bench.refuses("identify " + bench.readings + " --setup " + bench.machine + " --out " + out,
+                  "there is no folder '" + bench.file("nowhere") + "'");
+    bench.refuses("volumetric --grid 50 --rotary-grid 1 --html " + below,
+                  "is a file, not a folder");
+    bench.refuses("volumetric --grid 50 --rotary-grid 1 --svg " + below, "is a file, not a folder");
+    CHECK(bench.trunnion("volumetric --grid 2 --rotary-grid 1 --svg " + bench.file("new") +
+                         " --html " + bench.file("new/v.html")) == 0);
+    CHECK(fs::exists(bench.file("new/v.html")));
+    bench.refuses("run " + bench.program + " --trace a.csv --print ./a.csv",
+                  "--trace and --print would both write this");
+}
+
+TEST_CASE("what is named wrongly is told by its true reason") {
+    const Bench bench;
+    bench.refuses("volumetric --grid 2.5", "--grid: '2.5' is not a whole number");
+    bench.refuses("backup", "a command is missing: load, save, diff");
+    bench.refuses("backup load " + bench.program, "is a file, not a folder");
+    bench.refuses("backup load " + bench.file("gone"), "no such folder");
+    bench.refuses("run " + bench.file("gone.nc"), "gone.nc: error: no such program");
+    const std::string twice = bench.program + " " + bench.program;
+    bench.refuses("compare " + twice + " --programs gone", "gone: error: no such program folder");
+    bench.refuses("run " + bench.program + " --programs " + bench.program,
+                  "is a file, not a program folder");
+    bench.refuses("predict " + bench.machine + " --setup " + bench.machine,
+                  "this is not a table of readings");
+    std::string wide = "\xFF\xFE";
+    for (const char c : Bench::setup()) wide += std::string{c, '\0'};
+    CHECK(bench.trunnion("run " + bench.program + " --setup " + bench.write("w.toml", wide)) == 0);
+    CHECK(bench.trunnion("run " + bench.write("w.nc", std::string("\xFF\xFEO\0001\0", 6))) == 3);
+    CHECK_THAT(bench.read("err.txt"), Catch::Contains("save a text in UTF-16 as plain text"));
+}
+
 TEST_CASE("an unknown command points to the help") {
     const Bench bench;
     bench.refuses("bogus", "there is no command 'bogus' (trunnion --help lists");

@@ -168,6 +168,10 @@ bool whole_or_absent(const Outcome& faulted, const Outcome& plain) {
     return true;
 }
 
+bool all_or_none(const Outcome& faulted, const Outcome& plain) {
+    return faulted.files.empty() || faulted.files == plain.files;
+}
+
 }  // namespace
 
 // std::filesystem ends the program when it finds no memory for the next folder of a search.
@@ -243,6 +247,7 @@ TEST_CASE("no command crashes, lies or leaves halves when a call of the system f
                 INFO(function << " " << call << "\n" << bench.read("err.txt"));
                 CHECK((faulted == plain || faulted.code == 2 || faulted.code == 4));
                 CHECK(whole_or_absent(faulted, plain));
+                if (function != "rename") CHECK(all_or_none(faulted, plain));
                 if (faulted.code != plain.code && function != "write")
                     CHECK_FALSE(bench.read("err.txt").empty());
             }

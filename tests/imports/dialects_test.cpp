@@ -232,6 +232,26 @@ TEST_CASE("numbers that no table of readings may hold are refused where they sta
     CHECK(import_bench::read_rows(setup, log("9999999")).size() == 2);
     import_bench::refuses(setup, log("10000001"), "beyond 1e7", 3);
     import_bench::refuses(setup, log("19999999900"), "beyond 1e7", 3);
+    try {
+        import_bench::imported(setup, log("10000001"));
+    } catch (const InputError& error) {
+        CHECK(error.where.column == 5);
+        CHECK(error.line_text == "0.1,10000001,2.5");
+    }
+}
+
+TEST_CASE("an error in a line of a file shows the line") {
+    const Case backwards{imports::ImportKind::axis_log,
+                         "time [s],X cmd [mm],X act [mm]\r\n0,1,1\r\n-1,2,2\r\n",
+                         {},
+                         ""};
+    try {
+        import_bench::imported(import_bench::setup(), backwards);
+        FAIL("no error");
+    } catch (const InputError& error) {
+        CHECK(error.where.line == 3);
+        CHECK(error.line_text == "-1,2,2");
+    }
 }
 
 TEST_CASE("commas of remarks above a table do not separate its columns", "[imports][dialects]") {

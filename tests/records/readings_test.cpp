@@ -67,10 +67,45 @@ TEST_CASE("a table is read with units, comments and unknown columns noted") {
     CHECK_THAT(notes[0], Catch::Contains("odd"));
 }
 
+TEST_CASE("a table is read as spreadsheets save it") {
+    const std::string plain = "# schema = trunnion.readings/1\n# side = X+\n" + header +
+                              "1,0,m,dpp,sphere,S1,1.5,-30,1,0,0,0.01\n";
+    const records::ReadingTable table = read(plain);
+    const auto same = [&](std::string text) {
+        const records::ReadingTable other = read(text);
+        REQUIRE(other.rows.size() == 1);
+        CHECK(records::format_readings(other) == records::format_readings(table));
+    };
+    const auto wide = [](const std::string& text, bool little) {
+        std::string out = little ? "\xFF\xFE" : "\xFE\xFF";
+        for (const char c : text) {
+            if (little) out += c;
+            out += '\0';
+            if (!little) out += c;
+        }
+        return out;
+    };
+    std::string tabs = plain, semicolons = plain;
+    std::replace(tabs.begin(), tabs.end(), ',', '\t');
+    std::replace(semicolons.begin(), semicolons.end(), ',', ';');
+    for (const std::string& text : {tabs, semicolons, wide(plain, true), wide(plain, false),
+                                    wide(tabs, true), "\xEF\xBB\xBF" + plain})
+        same(text);
+    std::string filled = plain;  // each line with as many cells
+    filled.insert(filled.find("X+") + 2, ",,,,");
+    filled.insert(filled.find("/1\n") + 2, ",,,,");
+    same(filled);
+    check_fault(wide(header + "1,0,m,dpp,,S1,1.x,-30,1,0,0,0.01\n", true), "not a finite number", 2,
+                15);
+    check_fault("index;time_s;test;device;feature;x_mm;value_mm\n1;0;m;;;1,5;0\n",
+                "write a decimal point", 2, 9);
+}
+
 TEST_CASE("bad tables name the place") {
     check_fault("", "no header", 1, 1);
     check_fault(header + "1,5,t,,\"ball\"bar,P,0,0,,,,0\n", "behind a closed quote", 2, 14);
-    check_fault("a,b\n", "column 'index' is missing", 1, 1);
+    check_fault("a,b\n", "not a table of readings", 1, 1);
+    check_fault("time_s,value_mm\n", "column 'index' is missing", 1, 1);
     check_fault(header, "no rows", 1, 1);
     check_fault(header + "1,nan,t,,ballbar,P,0,0,,,,0\n", "not a finite number", 2, 3);
     check_fault(header + "1,0,t,,ballbar,P,inf,0,,,,0\n", "not a finite number", 2, 18);

@@ -171,6 +171,12 @@ TEST_CASE("what a suite may not say is refused and named", "[suite]") {
         INFO(body);
         CHECK_THAT(folder.refusal(body), Catch::Contains(message));
     }
+    try {
+        folder.read(one + one);
+    } catch (const InputError& error) {
+        CHECK(error.where.line > 3);
+        CHECK(error.line_text == "[[case]]");
+    }
     for (const char* schema : {"", "schema = \"trunnion.suite/2\"\n"}) {
         std::ofstream(folder.at("other.toml")) << schema << one;
         CHECK_THROWS_AS(regression::read_suite(folder.at("other.toml"), {}), InputError);
