@@ -73,6 +73,7 @@ TEST_CASE("the step of a log is that of its values where they are coarser than p
     };
     CHECK(step_of(0.00254, 5, 500) == Approx(0.00254).epsilon(1e-3));
     CHECK(step_of(0.00254, 6, 500) == Approx(0.00254).epsilon(1e-3));
+    CHECK(step_of(0.00254, 4, 500) == Approx(0.00254).epsilon(1e-3));
     CHECK(step_of(0.01, 4, 500) == Approx(0.01).epsilon(1e-3));
     CHECK(step_of(0.001, 3, 500) == Approx(0.001));
     CHECK(step_of(1e-5, 5, 500) == Approx(1e-5));
