@@ -9,10 +9,13 @@
 #include <set>
 
 #include "choices/block_texts.h"
+#include "choices/far_blocks.h"
 #include "choices/folds.h"
+#include "choices/gap_notes.h"
 #include "choices/gap_search.h"
 #include "choices/gap_teller.h"
 #include "choices/log_meaning.h"
+#include "choices/offset_words.h"
 #include "choices/row_fit.h"
 #include "choices/small_shift.h"
 #include "controller/alarms.h"
@@ -23,11 +26,11 @@ namespace trunnion::choices {
 namespace {
 
 constexpr double gap_sigmas = 6.0;  ///< of a row: a gap begins there
-constexpr double explained_from = 0.8, partly_from = 0.5;
-constexpr double least_left = 0.005;  ///< of the gap: minimum for a block listed as remaining
+constexpr double explained_from = 0.8;
+constexpr std::size_t enough_blocks = 2;  ///< for the numbers of a store, beside foreign blocks
+constexpr double least_left = 0.005;      ///< of the gap: minimum for a block listed as remaining
 constexpr double only_one_block = 2.0 / 3.0;  ///< most that a single block can prove
 constexpr double claimed = 0.5;               ///< least probability of a claim
-constexpr double least_told_mm = 0.01;        ///< distance of samples that is worth a note
 constexpr double chance =
     1e-6;  ///< p of a small excess over the noise that is searched all the same
 constexpr double quite_sure = 0.8;     ///< probability of a cause of such an excess
@@ -36,6 +39,7 @@ constexpr double still_helps = 0.01;   ///< of what a cause removes: it does so 
 constexpr std::size_t least_late = 3;  ///< blocks with wrong rows, where numbers are late
 constexpr double infinite_loss = std::numeric_limits<double>::infinity();
 constexpr double surely_more = 1e-9;  ///< p of a mean that no noise has
+constexpr double contradicts = 0.9;   ///< of the loss: most that stays without the numbers
 constexpr double other_start = 1.2;   ///< of the loss: most with a start that may be right
 
 /// The control with all steps but some.
@@ -54,6 +58,12 @@ struct Judged {
     double excess;     ///< of the loss, over noise
     double row_limit;  ///< loss of a row that noise may have
 };
+
+/// Part of a loss that is removed.
+double removed(const std::vector<double>& before, const std::vector<double>& after) {
+    const double sum = sum_of(before);
+    return sum > 0.0 ? 1.0 - sum_of(after) / sum : 0.0;
+}
 
 /// Limits the probability by the number of blocks that depend on the cause, and by a part that is
 /// explained.
@@ -86,13 +96,18 @@ GapCause cause_of(const GapQuestion& question, const GapSearch& found, std::size
     out.worst = by.teller.worst(rest, changed);
     out.heldout = by.teller.shrink(rest.losses, found.left_out);
     // An exact cause leaves nothing in most of what it touches.
-    // Foreign blocks beside it are none of its rows, but it must explain more than they are.
-    std::vector<double> before = rest.losses, after = found.run.losses;
+    // Foreign blocks beside it are none of its rows. A store in a single block must explain more
+    // than they are, because its numbers fit one of them, too.
+    std::vector<double> before = rest.losses, after = found.run.losses, left_out = found.left_out;
     const double all = reached(before, after, by.row_limit);
     for (std::size_t row = 0; row < before.size(); ++row)
-        if (!changed(row)) before[row] = after[row] = 0.0;
-    cap_probability(out,
-                    std::min(2.0 * reached(before, after, by.row_limit) - 1.0, 4.0 * all - 2.0));
+        if (!changed(row)) before[row] = after[row] = left_out[row] = 0.0;
+    const double own = 2.0 * reached(before, after, by.row_limit) - 1.0;
+    const bool may_be_foreign = out.blocks < enough_blocks && !step.chosen.numbers.empty();
+    cap_probability(out, may_be_foreign ? std::min(own, 4.0 * all - 2.0) : own);
+    for (std::size_t row = 0; row < before.size(); ++row)
+        if (after[row] > by.row_limit) before[row] = left_out[row] = 0.0;
+    if (by.row_limit < infinite_loss) cap_probability(out, removed(before, left_out));
     if (step.only_passes_stop) {
         // All that the log shows of it is that the other control did not stop.
         out.probability = std::min(out.probability, only_one_block);
@@ -125,7 +140,7 @@ void cap_by_needed(const GapQuestion& question, const GapSearch& found, const Ju
 /// `whole`: the causes bring (almost) all rows with a gap down to noise, and spoil none.
 GapVerdict verdict_of(const ControlGap& gap, bool whole) {
     const bool none = std::none_of(gap.causes.begin(), gap.causes.end(), is_claimed);
-    if (none || gap.explained < partly_from) return GapVerdict::unexplained;
+    if (none) return GapVerdict::unexplained;
     if (gap.explained < explained_from || !whole) return GapVerdict::partly_explained;
     const bool rivals = std::any_of(gap.causes.begin(), gap.causes.end(),
                                     [](const GapCause& c) { return !c.rivals.empty(); });
@@ -148,33 +163,6 @@ void add_unknown(ControlGap& gap, std::size_t blocks) {
     gap.causes.push_back(cause);
 }
 
-/// Adds a note if the log begins after the program, or ends before it.
-void tell_rest(const LogView& log, const ComparedRun& base, ControlGap& gap) {
-    std::size_t first = base.path.nodes.size(), last = 0;
-    for (const Pair& pair : base.pairs) {
-        first = std::min<std::size_t>(first, pair.node);
-        last = std::max<std::size_t>(last, pair.node);
-    }
-    if (log.begins_within && first < base.path.nodes.size())
-        gap.notes.push_back(fmt::format(
-            "the log begins within the program: the moves before line {} are not judged",
-            base.path.blocks[base.path.nodes[first].block].line));
-    if (last + 1 >= base.path.nodes.size()) return;
-    const PathBlock& next = base.path.blocks[base.path.nodes[last + 1].block];
-    gap.notes.push_back(fmt::format(
-        "the log ends before the program: the moves from line {} on are not judged", next.line));
-}
-
-/// What the samples cannot show; a log with a row at every end of a move shows it.
-void tell_sampling(const LogView& log, ControlGap& gap) {
-    if (log.spacing <= least_told_mm || log.marked) return;
-    gap.notes.push_back(fmt::format(
-        "a move of less than {:.2g} mm, out and back between two samples, would not be seen{}",
-        log.spacing,
-        log.even ? "; the end of a sampled motion is judged to the distance of its own samples"
-                 : ""));
-}
-
 void tell_base(const LogOfProgram& log, const ComparedRun& base, const Teller& teller,
                ControlGap& gap) {
     gap.noise = log.noise;
@@ -193,7 +181,7 @@ void tell_base(const LogOfProgram& log, const ComparedRun& base, const Teller& t
                         controller::alarm_title(base.path.alarm->number, base.path.alarm->text),
                         base.path.alarm->where.line);
     gap.after_rms_um = gap.rms_um;
-    tell_rest(log.view, base, gap);
+    tell_rest(log.view, base, gap.notes);
 }
 
 void tell_causes(const GapQuestion& question, const GapSearch& found, const ComparedRun& base,
@@ -203,7 +191,8 @@ void tell_causes(const GapQuestion& question, const GapSearch& found, const Comp
     const double excess = by.excess;
     gap.explained =
         excess > 0.0 ? std::clamp((base.loss - sum_of(found.left_out)) / excess, 0.0, 1.0) : 0.0;
-    for (GapCause& cause : gap.causes) cap_probability(cause, gap.explained);
+    if (by.row_limit == infinite_loss)
+        for (GapCause& cause : gap.causes) cap_probability(cause, gap.explained);
     cap_by_needed(question, found, by, gap.causes);
     for (std::size_t k = 0; k < found.steps.size(); ++k)
         if (is_claimed(gap.causes[k])) found.steps[k].chosen.take(gap.setup);
@@ -290,7 +279,7 @@ Answer judged(const Asked& asked, LogOfProgram log) {
     ControlGap& gap = out.gap;
     gap.setup = question.setup;
     gap.notes = log.notes;
-    tell_sampling(log.view, gap);
+    tell_sampling(log.view, gap.notes);
     const ComparedRun first = asked.comparer(log).run(question.setup);
     const std::vector<int> blocks = blocks_of(log.view, first);
     // A motion that the log samples coarsely looks like noise, and would hide a gap.
@@ -304,15 +293,24 @@ Answer judged(const Asked& asked, LogOfProgram log) {
     const Teller teller(log, texts, blocks, directions_of(log.view, base));
     tell_base(log, base, teller, gap);
     const bool quiet = is_quiet(log, base);
+    if (quiet && is_rounding(log.view, base)) {
+        gap.p_value = 1.0;
+        return out;
+    }
     const double alike = quiet ? correlation_of(log.view, base, blocks) : 0.0;
     if (quiet) gap.p_value = std::min(gap.p_value, p_of_shift(log.view, base, blocks, alike));
     if (quiet && gap.p_value > chance) return out;
-    const GapSearch found =
-        search_causes({comparer, question.setup, base, blocks, alike}, question.watch);
+    const std::set<int> called = offset_words(asked.texts);
+    const SearchQuestion search{comparer, question.setup, base, blocks, called, alike};
+    GapSearch found = search_causes(search, question.watch);
+    const auto limit = [&] {
+        return quiet ? infinite_loss
+                     : row_limit_of(log, base, found.run, blocks, 1e-3 * gap.rms_um);
+    };
+    if (!quiet) found = beside_far_blocks(search, std::move(found), limit(), question.watch);
     // Within the noise no row shows whether it is reached: their means do.
-    const Judged by{
-        comparer, teller, blocks, base.loss - (quiet ? found.run.loss : teller.noise_loss()),
-        quiet ? infinite_loss : row_limit_of(log, base, found.run, blocks, 1e-3 * gap.rms_um)};
+    const Judged by{comparer, teller, blocks,
+                    base.loss - (quiet ? found.run.loss : teller.noise_loss()), limit()};
     tell_causes(question, found, base, by, gap);
     if (quiet && (!is_convincing(gap) || p_of_shift(log.view, found.run, blocks, alike) < chance))
         take_back(question, gap);
@@ -344,6 +342,31 @@ void try_other_start(const Asked& asked, const LogOfProgram& log, Answer& answer
     if (!is_left(second.gap)) answer = std::move(second);
 }
 
+/// Another reading is taken if causes explain the log wholly by it.
+void try_reading(const Asked& asked, LogOfProgram other, Answer& answer) {
+    Answer second = judged(asked, std::move(other));
+    if (!is_left(second.gap)) answer = std::move(second);
+}
+
+/// Without the numbers of blocks, if these contradict the positions.
+void try_without_numbers(const Asked& asked, const LogOfProgram& log, Answer& answer) {
+    if (!is_left(answer.gap) || answer.left < least_late || log.view.keys == 0) return;
+    LogOfProgram other = without_numbers(log);
+    const setup::Setup& setup = asked.question.setup;
+    if (asked.comparer(other).run(setup).loss <= contradicts * asked.comparer(log).run(setup).loss)
+        try_reading(asked, std::move(other), answer);
+}
+
+/// Without numbers of blocks, the moves behind a large gap may seem to be no part of the log: as a
+/// log of the whole program, they are.
+void try_whole(const Asked& asked, LogOfProgram log, Answer& answer) {
+    if (!is_left(answer.gap) || log.view.keys > 0 ||
+        !ends_before(asked.comparer(log).run(asked.question.setup)))
+        return;
+    log.view.whole = true;
+    try_reading(asked, std::move(log), answer);
+}
+
 }  // namespace
 
 ControlGap control_gap(const GapQuestion& question, interpreter::ProgramSource& programs,
@@ -365,6 +388,8 @@ ControlGap control_gap(const GapQuestion& question, interpreter::ProgramSource& 
         settle_lateness(asked.source(answer.reached), log))
         answer = judged(asked, log);
     try_other_start(asked, log, answer);
+    try_without_numbers(asked, log, answer);
+    try_whole(asked, log, answer);
     return std::move(answer.gap);
 }
 

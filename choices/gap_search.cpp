@@ -78,6 +78,7 @@ class Searcher {
     explicit Searcher(const SearchQuestion& question)
         : comparer_(question.comparer),
           blocks_(question.blocks),
+          called_(question.called),
           scorer_(comparer_.log(), blocks_, question.alike),
           options_(question.setup) {
         found_.setup = question.setup;
@@ -132,7 +133,7 @@ class Searcher {
         }
     }
     void add_stores() {
-        for (const Store& store : store_table(found_.setup)) {
+        for (const Store& store : store_table(found_.setup, called_)) {
             StoreFit fit = fit_store(comparer_, found_.setup, found_.run, store, blocks_);
             if (!fit.seen) unseen_.push_back(store.name);
             if (fit.numbers.empty()) continue;
@@ -196,9 +197,9 @@ class Searcher {
         const SetScore score = [this](double loss, std::size_t numbers) {
             return scorer_.score(loss, numbers);
         };
-        JointStores joint =
-            explained_together({comparer_, options_, blocks_, score, least_gain, rival_gap},
-                               {found_.setup, found_.run});
+        JointStores joint = explained_together(
+            {comparer_, options_, blocks_, called_, score, least_gain, rival_gap},
+            {found_.setup, found_.run});
         std::erase_if(found_.steps, is_store);
         found_.setup = std::move(joint.control.setup);
         found_.run = std::move(joint.control.run);
@@ -211,8 +212,9 @@ class Searcher {
         step.rivals = std::move(cause.rivals);
         const auto& options = options_instead_[cause.name];
         step.rivals.insert(step.rivals.end(), options.begin(), options.end());
-        const auto take = [name = cause.name, numbers = cause.numbers](setup::Setup& s) {
-            for (const Store& store : store_table(s))
+        const auto take = [name = cause.name, numbers = cause.numbers,
+                           called = called_](setup::Setup& s) {
+            for (const Store& store : store_table(s, called))
                 if (store.name == name) enter(store, numbers, s);
         };
         step.chosen = {std::move(cause.name),
@@ -234,6 +236,7 @@ class Searcher {
 
     const Comparer& comparer_;
     const std::vector<int>& blocks_;
+    const std::set<int>& called_;
     Scorer scorer_;
     setup::Setup options_;  ///< with the options found, and the stores of the start
     GapSearch found_;

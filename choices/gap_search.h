@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,7 @@ struct SearchQuestion {
     const setup::Setup& setup;
     const ComparedRun& before;
     const std::vector<int>& blocks;  ///< block of each row, from 0
+    const std::set<int>& called;     ///< numbers of H, D and T in the programs
     double alike = 0.0;  ///< not 0: the difference is smaller than the noise of a row, and so many
                          ///< rows count as one
 };

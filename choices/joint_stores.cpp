@@ -39,7 +39,7 @@ class Joint {
           score_(question.score),
           least_odds_(question.least_odds),
           rival_gap_(question.rival_gap),
-          table_(store_table(start_)),
+          table_(store_table(start_, question.called)),
           before_(comparer_.run(start_)) {}
 
     JointStores explain() {
@@ -68,7 +68,7 @@ class Joint {
     NumberSet present() const {
         NumberSet out;
         for (std::size_t k = 0; k < seen_.size(); ++k)
-            if (std::abs(seen_[k].now - seen_[k].start) > least_change)
+            if (std::abs(seen_[k].now - seen_[k].start) > least_change_of(comparer_.log()))
                 out.push_back(static_cast<Index>(k));
         return out;
     }
@@ -104,7 +104,8 @@ class Joint {
         if (numbers.empty() || !fit_to_most_rows(comparer_, numbers, now_)) return;
         for (const Index k : set) {
             const Seen& seen = seen_[static_cast<std::size_t>(k)];
-            if (std::abs(value_of(now_.setup, *seen.number) - seen.start) <= least_change)
+            if (std::abs(value_of(now_.setup, *seen.number) - seen.start) <=
+                least_change_of(comparer_.log()))
                 seen.number->in(now_.setup) = seen.start;
         }
         now_.run = comparer_.run(now_.setup);

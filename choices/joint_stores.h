@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,7 @@ struct StoreQuestion {
     const Comparer& comparer;
     const setup::Setup& start;  ///< the control with its options and its own stores
     const std::vector<int>& blocks;
+    const std::set<int>& called;  ///< of store_table
     SetScore score;
     double least_odds;  ///< of the score: what a further store costs
     double rival_gap;   ///< of the score: a set that is closer is a rival

@@ -18,6 +18,7 @@ constexpr double quiet_worst = 6.0;       ///< and the largest distance, in sigm
 constexpr double other_meaning = 0.1;     ///< of the loss: most that another reading may leave
 constexpr double other_lateness = 0.05;   ///< the same where no corner shows it
 constexpr std::size_t most_unlogged = 2;  ///< blocks that a control may leave out at the start
+constexpr std::size_t least_wrong = 3;    ///< blocks with rows that their numbers do not fit
 constexpr std::size_t rows_a_change = 8;  ///< of a log whose numbers may be late
 constexpr double shown_loss = 9.0;        ///< of an axis, at a change of the number
 constexpr int earliest_shift = -3, latest_shift = 5;
@@ -54,6 +55,14 @@ class Meanings {
     void settle() {
         settle_part();
         settle_lateness();
+        settle_numbers();
+    }
+    /// Positions that agree in their order have no gap, whatever their numbers are. What stays in
+    /// one or two blocks may be another end of these.
+    void settle_numbers() {
+        if (is_settled() || now_.log.view.keys == 0 || wrong_blocks() < least_wrong) return;
+        Meaning other = meaning(without_numbers(now_.log));
+        if (is_quiet(other.log, other.run)) now_ = std::move(other);
     }
     /// False: the log stays.
     bool settle_lateness() {
@@ -122,6 +131,13 @@ class Meanings {
         }
         if (best != nullptr) now_ = std::move(*best);
     }
+    std::size_t wrong_blocks() const {
+        const double most = static_cast<double>(now_.log.view.axes.size()) * shown_loss;
+        std::set<int> out;
+        for (std::size_t row = 0; row < now_.run.losses.size(); ++row)
+            if (now_.run.losses[row] > most) out.insert(now_.log.view.rows[row].key);
+        return out.size();
+    }
     double noise() const {
         return static_cast<double>(now_.log.view.axes.size() * now_.log.view.rows.size());
     }
@@ -184,6 +200,16 @@ LogOfProgram from_machine_zero(LogOfProgram log) {
     log.notes.emplace_back(
         "the control started at its machine zero, and the first row of the log stands on its first "
         "move");
+    return log;
+}
+
+LogOfProgram without_numbers(LogOfProgram log) {
+    log.view.keys = 0;
+    log.view.key_of = [](const PathBlock&) { return -1; };
+    for (LogView::Row& row : log.view.rows) row.key = -1;
+    log.notes.emplace_back(
+        "the numbers of blocks do not fit: the positions agree in their order, by which the rows "
+        "are assigned");
     return log;
 }
 

@@ -23,6 +23,9 @@ bool is_quiet(const LogOfProgram& log, const ComparedRun& run);
 /// Another start of the control: not the first row of a log of samples.
 LogOfProgram from_machine_zero(LogOfProgram log);
 
+/// Rows assigned by their order alone.
+LogOfProgram without_numbers(LogOfProgram log);
+
 /// Replaces the log by another reading of it only where that removes (almost) all of a gap, or, for
 /// late numbers, where the corners of the log itself show it; a note tells.
 void settle_meaning(const LogSource& source, LogOfProgram& log);

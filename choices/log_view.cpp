@@ -164,6 +164,13 @@ double measured_sigma(const LogView& view) {
     return most;
 }
 
+/// Noise beyond this ratio to that of the printed increment makes its rounding random.
+constexpr double hides_rounding = 2.0;
+
+double rounding_of(const LogOfProgram& log) {
+    return log.sigma < hides_rounding * log.least_sigma ? log.half_step : 0.0;
+}
+
 double chord_of(double sigma) {
     return std::max(least_sample_sigma, 0.3 * sigma);
 }
@@ -176,7 +183,8 @@ void set_noise(const records::PositionLog& log, LogOfProgram& out) {
     const bool dense = !log.ends && log.rows.size() >= rows_for_noise &&
                        static_cast<double>(log.rows.size()) > dense_rows_a_block * blocks;
     double sigma = std::max(printed, log.ends ? least_sigma : least_sample_sigma);
-    if (!given && dense) {
+    out.dense = !given && dense;
+    if (out.dense) {
         const double found = measured_sigma(out.view);
         if (found > sigma) out.noise = LogNoise::repeats;
         sigma = std::max(sigma, found);
@@ -190,6 +198,8 @@ void set_noise(const records::PositionLog& log, LogOfProgram& out) {
     }
     out.sigma = sum / static_cast<double>(out.view.rows.size());
     out.least_sigma = std::max(printed, log.ends ? least_sigma : least_sample_sigma);
+    out.half_step = 0.5 * log.step;
+    out.view.rounding = rounding_of(out);
 }
 
 }  // namespace
@@ -203,6 +213,7 @@ void set_sigma(LogOfProgram& log, double sigma) {
     log.sigma = std::max(sigma, log.least_sigma);
     for (LogView::Row& row : log.view.rows) row.weight = 1.0 / log.sigma;
     log.path.chord_mm = chord_of(log.sigma);
+    log.view.rounding = rounding_of(log);
 }
 
 LogOfProgram log_of_program(const records::PositionLog& log,

@@ -19,8 +19,10 @@ struct LogOfProgram {
     bool by_number = false;  ///< the numbers of blocks are N numbers, else lines
     PathOptions path;        ///< options for a path to be compared with this log
     LogNoise noise = LogNoise::assumed;
+    bool dense = false;        ///< neighbouring rows showed the noise
     double sigma = 0.0;        ///< mean standard uncertainty of a position, mm or deg
     double least_sigma = 0.0;  ///< that of the printed increment
+    double half_step = 0.0;    ///< half of that increment, mm or deg
     std::vector<std::string> notes;
 };
 

@@ -26,7 +26,8 @@ constexpr double as_cheap = 1e-6;              ///< of the square of a sigma
 
 class Pairer {
   public:
-    Pairer(const LogView& log, const ControlPath& path) : log_(log), path_(path), space_(log.axes) {
+    Pairer(const LogView& log, const ControlPath& path, const RowKeys& keys)
+        : log_(log), path_(path), space_(log.axes), keys_(keys) {
         row_node_.assign(log.rows.size(), missing);
         node_row_.assign(path.nodes.size(), missing);
     }
@@ -46,14 +47,13 @@ class Pairer {
     static constexpr std::size_t missing = std::numeric_limits<std::size_t>::max();
 
     void group() {
-        keys_ = keys_of(log_, path_);
         rows_.resize(static_cast<std::size_t>(keys_.count));
         nodes_.resize(rows_.size());
         for (std::size_t i = 0; i < log_.rows.size(); ++i)
             if (const int key = keys_.of_row[i]; key >= 0)
                 rows_[static_cast<std::size_t>(key)].push_back(i);
         for (std::size_t k = 1; k < path_.nodes.size(); ++k)
-            if (const int key = keys_.of_block[path_.nodes[k].block]; key >= 0)
+            if (const int key = keys_.of_node[k]; key >= 0)
                 nodes_[static_cast<std::size_t>(key)].push_back(k);
     }
     void warp(std::size_t g) {
@@ -105,7 +105,9 @@ class Pairer {
     /// The log begins within the program.
     bool opens(const Indices& rows) const { return rows.front() == opening_row_; }
     /// The last row of the log may be anywhere, because the following ones are unknown.
-    bool ends_open(const Indices& rows) const { return rows.back() + 1 == log_.rows.size(); }
+    bool ends_open(const Indices& rows) const {
+        return !log_.whole && rows.back() + 1 == log_.rows.size();
+    }
 
     void add(std::size_t row, std::size_t node, double fraction, const ControlPosition& apart,
              bool slides) {
@@ -334,14 +336,15 @@ class Pairer {
     void add_lonely_nodes() {
         std::size_t last = 0;
         for (const Pair& pair : pairs_) last = std::max<std::size_t>(last, pair.node);
-        std::vector<bool> has_rows;
-        for (const int key : keys_.of_block)
-            has_rows.push_back(key >= 0 && !rows_[static_cast<std::size_t>(key)].empty());
+        const auto has_rows = [this](std::size_t k) {
+            const int key = keys_.of_node[k];
+            return key >= 0 && !rows_[static_cast<std::size_t>(key)].empty();
+        };
         std::size_t row = 0;
         for (std::size_t k = std::max<std::size_t>(1, begin_node_); k < last; ++k) {
             if (node_row_[k] != missing) {
                 row = node_row_[k];
-            } else if (!has_rows[path_.nodes[k].block]) {
+            } else if (!has_rows(k)) {
                 log_.ends ? add_end(row, k) : add_missed(row, k, {});
             }
         }
@@ -350,7 +353,7 @@ class Pairer {
     const LogView& log_;
     const ControlPath& path_;
     Space space_;
-    RowKeys keys_;
+    const RowKeys& keys_;
     std::vector<Indices> rows_, nodes_;  ///< by key
     std::size_t opening_row_ = missing;  ///< the first row of a log that begins within the program
     std::size_t begin_node_ = 0;         ///< nodes before are not judged
@@ -363,7 +366,24 @@ class Pairer {
 }  // namespace
 
 std::vector<Pair> pair_up(const LogView& log, const ControlPath& path) {
-    return Pairer(log, path).pair();
+    const RowKeys keys = keys_of(log, path);
+    std::vector<Pair> out = Pairer(log, path, keys).pair();
+    const std::vector<RowKeys> others = keys_by_order(log, path, keys);
+    if (others.empty()) return out;
+    const auto loss = [&log](const std::vector<Pair>& pairs) {
+        double sum = 0.0;
+        for (const double one : row_losses(log, pairs)) sum += one;
+        return sum;
+    };
+    double least = loss(out);
+    for (const RowKeys& other : others) {
+        std::vector<Pair> pairs = Pairer(log, path, other).pair();
+        if (const double own = loss(pairs); own < least) {
+            least = own;
+            out = std::move(pairs);
+        }
+    }
+    return out;
 }
 
 std::vector<double> row_losses(const LogView& log, const std::vector<Pair>& pairs) {

@@ -16,6 +16,8 @@ constexpr double visible = 9.0;                ///< loss of an axis: a row beyon
 constexpr double clearly = 4.0;                ///< times the limit of a row: it is wrong
 constexpr double other_columns = 1e-3;         ///< of the loss: it is that of noise
 constexpr double most_scatter = 0.05;          ///< of the gap: a larger scatter is no noise
+constexpr double least_increment = 0.001;      ///< mm or deg, of a control (IS-B)
+constexpr double of_chord = 2e-4;              ///< mm or deg: a path's chords beside its curves
 
 }  // namespace
 
@@ -88,12 +90,24 @@ double row_limit_of(const LogOfProgram& log, const ComparedRun& base, const Comp
     const double axes = static_cast<double>(log.view.axes.size());
     double ratio = 1.0;
     if (log.noise != LogNoise::given) {
-        const double scatter = std::min({scatter_about(log.view, explained, blocks).value_or(0.0),
-                                         scatter_about(log.view, base, blocks).value_or(0.0),
-                                         most_scatter * gap / std::sqrt(axes)});
+        const double seen = log.dense
+                                ? log.sigma
+                                : std::min(scatter_about(log.view, explained, blocks).value_or(0.0),
+                                           scatter_about(log.view, base, blocks).value_or(0.0));
+        const double scatter = std::min(std::max(seen, least_increment / std::sqrt(12.0)),
+                                        most_scatter * gap / std::sqrt(axes));
         ratio = std::max(1.0, scatter / log.sigma);
     }
     return visible * axes * ratio * ratio;
+}
+
+bool is_rounding(const LogView& view, const ComparedRun& run) {
+    if (view.rounding <= 0.0) return false;
+    return std::all_of(run.pairs.begin(), run.pairs.end(), [&](const Pair& pair) {
+        return std::all_of(view.axes.begin(), view.axes.end(), [&](Axis axis) {
+            return std::abs(pair.apart[axis]) <= view.rounding + of_chord;
+        });
+    });
 }
 
 std::string agreeing_columns(const Comparer& comparer, const setup::Setup& setup, double loss) {

@@ -29,9 +29,15 @@ bool stays_wrong(const std::vector<double>& before, const std::vector<double>& a
                  double row_limit);
 
 /// Loss of a row that noise may have. Noise that nobody stated may be larger than the printed
-/// increment: then it is what the rows scatter from one to the next beside the explanation.
+/// increment: then it is what the rows scatter from one to the next beside the explanation (a log
+/// of few rows a block; a dense one has shown it), at least the rounding of a control to its least
+/// increment.
 double row_limit_of(const LogOfProgram& log, const ComparedRun& base, const ComparedRun& explained,
                     const std::vector<int>& blocks, double gap);
+
+/// No axis of a row is farther than half the printed increment, and the log has no other noise:
+/// printing alone may do that, alike in all rows at rest.
+bool is_rounding(const LogView& view, const ComparedRun& run);
 
 /// "its lengths are inches", "X and Y are exchanged": another meaning of the columns under which
 /// the log agrees; empty: none. `loss`: with the meaning that was read.

@@ -1,6 +1,7 @@
 #include "choices/row_keys.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
@@ -153,22 +154,123 @@ class KeyFiller {
     std::optional<std::size_t> at_;  ///< visit of the row before
 };
 
+/// Successive elements with one key.
+Visits runs_of(const std::vector<int>& keys, std::size_t from) {
+    Visits out;
+    for (std::size_t k = from; k < keys.size(); ++k) {
+        if (out.empty() || out.back().key != keys[k]) out.push_back({keys[k], k, k});
+        out.back().last = k;
+    }
+    return out;
+}
+
+/// The runs of a log's rows in the order of the path's visits.
+class Order {
+  public:
+    Order(const LogView& log, const ControlPath& path, const RowKeys& keys)
+        : rows_(log.rows.size()),
+          nodes_(path.nodes.size()),
+          runs_(runs_of(keys.of_row, 0)),
+          visits_(runs_of(keys.of_node, 1)) {
+        std::erase_if(runs_, [](const Visit& run) { return run.key < 0; });
+        for (std::size_t v = 0; v < visits_.size(); ++v) places_[visits_[v].key].push_back(v);
+    }
+    /// Of some block that runs several times, the rows show another number of times.
+    bool is_doubtful() const {
+        std::map<int, std::size_t> shown;
+        for (const Visit& run : runs_) ++shown[run.key];
+        return std::any_of(shown.begin(), shown.end(), [&](const auto& one) {
+            const auto at = places_.find(one.first);
+            return at != places_.end() && at->second.size() > 1 && at->second.size() != one.second;
+        });
+    }
+    std::optional<RowKeys> earliest() const {
+        Indices of_run;
+        for (const Visit& run : runs_) {
+            const auto at = places_.find(run.key);
+            if (at == places_.end()) return std::nullopt;
+            const auto next = std::lower_bound(at->second.begin(), at->second.end(),
+                                               of_run.empty() ? 0 : of_run.back() + 1);
+            if (next == at->second.end()) return std::nullopt;
+            of_run.push_back(*next);
+        }
+        RowKeys out = keys();
+        for (std::size_t r = 0; r < runs_.size(); ++r)
+            give(r, of_run[r], r + 1 < runs_.size() ? of_run[r + 1] : visits_.size(), out);
+        return out;
+    }
+    std::optional<RowKeys> latest() const {
+        Indices of_run(runs_.size());
+        std::size_t end = visits_.size();
+        for (std::size_t r = runs_.size(); r-- > 0;) {
+            const auto at = places_.find(runs_[r].key);
+            if (at == places_.end()) return std::nullopt;
+            const auto next = std::lower_bound(at->second.begin(), at->second.end(), end);
+            if (next == at->second.begin()) return std::nullopt;
+            of_run[r] = end = *std::prev(next);
+        }
+        RowKeys out = keys();
+        for (std::size_t r = 0; r < runs_.size(); ++r)
+            give(r, r > 0 ? of_run[r - 1] + 1 : 0, of_run[r] + 1, out);
+        return out;
+    }
+
+  private:
+    RowKeys keys() const {
+        return {std::vector<int>(rows_, -1),
+                {},
+                std::vector<int>(nodes_, -1),
+                static_cast<int>(runs_.size())};
+    }
+    /// A run and the visits of its block between two visits.
+    void give(std::size_t r, std::size_t from, std::size_t to, RowKeys& out) const {
+        const auto key = static_cast<int>(r);
+        for (std::size_t i = runs_[r].first; i <= runs_[r].last; ++i) out.of_row[i] = key;
+        for (std::size_t v = from; v < to; ++v)
+            if (visits_[v].key == runs_[r].key)
+                for (std::size_t k = visits_[v].first; k <= visits_[v].last; ++k)
+                    out.of_node[k] = key;
+    }
+
+    std::size_t rows_, nodes_;
+    Visits runs_, visits_;
+    std::map<int, Indices> places_;  ///< visits of each block
+};
+
+void set_nodes(const ControlPath& path, RowKeys& keys) {
+    for (const PathNode& node : path.nodes) keys.of_node.push_back(keys.of_block[node.block]);
+}
+
 }  // namespace
 
 RowKeys keys_of(const LogView& log, const ControlPath& path) {
     RowKeys out;
     if (log.keys == 0)
-        return {std::vector<int>(log.rows.size(), 0), std::vector<int>(path.blocks.size(), 0), 1};
+        return {std::vector<int>(log.rows.size(), 0), std::vector<int>(path.blocks.size(), 0),
+                std::vector<int>(path.nodes.size(), 0), 1};
     out.count = log.keys;
     for (const PathBlock& block : path.blocks) out.of_block.push_back(log.key_of(block));
     for (const LogView::Row& row : log.rows) out.of_row.push_back(row.key);
     const bool all =
         std::none_of(out.of_row.begin(), out.of_row.end(), [](int key) { return key < 0; });
-    if (all || path.nodes.size() < 2) return out;
-    // Blocks that the log does not name may be those of its rows without a number.
-    for (std::size_t b = 1; b < path.blocks.size(); ++b)
-        if (out.of_block[b] < 0) out.of_block[b] = out.count++;
-    KeyFiller(log, path, out).fill();
+    if (!all && path.nodes.size() >= 2) {
+        // Blocks that the log does not name may be those of its rows without a number.
+        for (std::size_t b = 1; b < path.blocks.size(); ++b)
+            if (out.of_block[b] < 0) out.of_block[b] = out.count++;
+        KeyFiller(log, path, out).fill();
+    }
+    set_nodes(path, out);
+    return out;
+}
+
+std::vector<RowKeys> keys_by_order(const LogView& log, const ControlPath& path,
+                                   const RowKeys& keys) {
+    if (log.keys == 0 || log.begins_within) return {};
+    const Order order(log, path, keys);
+    if (!order.is_doubtful()) return {};
+    std::vector<RowKeys> out;
+    for (auto& found : {order.earliest(), order.latest()})
+        if (found && (out.empty() || found->of_node != out.front().of_node)) out.push_back(*found);
     return out;
 }
 

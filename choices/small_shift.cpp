@@ -164,7 +164,8 @@ double p_of_shift(const LogView& view, const ComparedRun& run, const std::vector
             AxisSum all;
             for (std::size_t j = i; j < sums.size(); ++j) {
                 all.add(sums[j]);
-                if (all.variance < least_across || std::abs(all.sum) <= least_change * all.weight)
+                if (all.variance < least_across ||
+                    std::abs(all.sum) <= least_change_of(view) * all.weight)
                     continue;
                 most = std::max(most, std::abs(all.sum) / std::sqrt(all.variance * correlation));
             }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -14,6 +15,11 @@ namespace trunnion::choices {
 constexpr double least_change = 1e-4;  ///< mm or deg: the smallest increment that is entered in
                                        ///< practice
 constexpr double least_sigmas = 4.0;   ///< of a number that stands out
+
+/// Least change of a number that the log can tell.
+inline double least_change_of(const LogView& log) {
+    return std::max(least_change, log.rounding);
+}
 
 using Numbers = std::vector<const StoredNumber*>;
 

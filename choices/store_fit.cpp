@@ -98,7 +98,8 @@ class Fitter {
         const double gain = normal.right.dot(x);
         const double sigma =
             sigmas(normal, scale_of(comparer_, std::max(0.0, now_.run.loss - gain)))[last];
-        const bool stands_out = std::abs(x[last]) > std::max(least_change, least_sigmas * sigma);
+        const bool stands_out =
+            std::abs(x[last]) > std::max(least_change_of(comparer_.log()), least_sigmas * sigma);
         return stands_out ? gain : 0.0;
     }
     void tell(StoreFit& out) const {
@@ -106,7 +107,7 @@ class Fitter {
         for (std::size_t k = 0; k < numbers_.size(); ++k) {
             const StoredNumber& number = *numbers_[k];
             const double from = value_of(start_, number), to = value_of(now_.setup, number);
-            if (std::abs(to - from) > least_change)
+            if (std::abs(to - from) > least_change_of(comparer_.log()))
                 out.numbers.push_back(
                     {number.name, number.unit, from, to, s[static_cast<Eigen::Index>(k)]});
         }

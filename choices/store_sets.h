@@ -50,7 +50,8 @@ class LinearLoss {
         const double loss = least(set);
         const Eigen::VectorXd sigma = this->sigma(set, loss);
         for (Eigen::Index k = 0; k < x.size(); ++k)
-            if (std::abs(x[k]) <= std::max(least_change, least_sigmas * sigma[k]))
+            if (std::abs(x[k]) <=
+                std::max(least_change_of(comparer_.log()), least_sigmas * sigma[k]))
                 return std::numeric_limits<double>::infinity();
         return loss;
     }

@@ -71,10 +71,11 @@ Store tool_store(std::size_t number, bool length) {
               }}}};
 }
 
-void add_tools(const Setup& setup, std::vector<Store>& out) {
+void add_tools(const Setup& setup, const std::set<int>& called, std::vector<Store>& out) {
     for (std::size_t n = 1; n < setup.stores.tools.tool.size(); ++n) {
         const offsets::ToolOffset& tool = setup.stores.tools.tool[n];
-        if (tool.length_mm() == 0.0 && tool.radius_mm() == 0.0) continue;
+        const bool empty = tool.length_mm() == 0.0 && tool.radius_mm() == 0.0;
+        if (empty && !called.contains(static_cast<int>(n))) continue;
         out.push_back(tool_store(n, true));
         out.push_back(tool_store(n, false));
     }
@@ -201,11 +202,11 @@ double& axis_value(Setup& setup, int parameter, Axis axis) {
     return p.by_axis[offsets::number_of_named_axis(all, axis, axes)];
 }
 
-std::vector<Store> store_table(const Setup& setup) {
+std::vector<Store> store_table(const Setup& setup, const std::set<int>& called) {
     const std::vector<Axis> axes = axes_of(setup);
     std::vector<Store> out;
     add_work_offsets(setup, axes, out);
-    add_tools(setup, out);
+    add_tools(setup, called, out);
     const auto pivot = is_hurco(setup) ? table_pivot(setup, axes) : std::nullopt;
     if (pivot)
         add_centrelines(*pivot, out);

@@ -25,9 +25,9 @@ struct Store {
 };
 
 /// The stores that a program on this control may use: all of G54 to G59 and the external offset,
-/// non-zero G54.1, non-zero tools, 5114, 5115, 5440, reference positions, pivot (of a Hurco the
-/// centrelines and the height of M25).
-std::vector<Store> store_table(const setup::Setup& setup);
+/// non-zero G54.1, tools that are non-zero or whose number is `called`, 5114, 5115, 5440, reference
+/// positions, pivot (of a Hurco the centrelines and the height of M25).
+std::vector<Store> store_table(const setup::Setup& setup, const std::set<int>& called = {});
 
 bool is_hurco(const setup::Setup& setup);
 /// The axis's own value of a parameter, for writing; the other axes keep theirs.

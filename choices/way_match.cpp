@@ -163,10 +163,14 @@ struct Found {
 Spans nodes_of_rows(const Way& rows, const Way& nodes, const Found& look, std::size_t wide) {
     const std::size_t m = rows.size(), last = nodes.size() - 1, margin = margin_nodes * wide;
     Spans out{std::vector<std::size_t>(m), std::vector<std::size_t>(m)};
+    const auto near = [&](std::size_t row) {
+        return widened(look.spans, static_cast<std::size_t>(rows.along()[row] / look.step),
+                       margin_points * wide);
+    };
     for (std::size_t i = 0; i < m; ++i) {
-        const auto [low, high] =
-            widened(look.spans, static_cast<std::size_t>(rows.along()[i] / look.step),
-                    margin_points * wide);
+        // Between two rows the log's way is unknown: up to a row before, and to the next one.
+        const std::size_t low = near(i - std::min<std::size_t>(i, 1)).first,
+                          high = near(std::min(i + 1, m - 1)).second;
         const std::size_t from = node_at(nodes, static_cast<double>(low) * look.step),
                           to = node_at(nodes, static_cast<double>(high) * look.step);
         out.low[i] = std::min(from > margin ? from - margin : 0, last);

@@ -36,8 +36,26 @@ double least_difference(const std::vector<Values>& axes) {
     return least;
 }
 
+/// The step from the distances of neighbours, the smallest ones first: a distance of n steps is
+/// counted right only with a step that is known better than 1/n.
+double step_between_neighbours(const std::vector<Values>& axes, double step) {
+    Values apart;
+    for (const Values& values : axes)
+        for (std::size_t i = 1; i < values.size(); ++i) apart.push_back(values[i] - values[i - 1]);
+    std::sort(apart.begin(), apart.end());
+    double far = step;
+    for (const double one : apart) {
+        const double count = std::round(one / step);
+        if (one <= far || std::abs(one - count * step) > 0.3 * step) continue;
+        step = one / count;
+        far = one;
+    }
+    return step;
+}
+
 /// The step that fits all values, from a first one: the farther the values, the better it is known.
 double refined(const std::vector<Values>& axes, double step) {
+    step = step_between_neighbours(axes, step);
     double far = 0.0;
     for (const Values& values : axes)
         for (const double value : values) {

@@ -83,6 +83,24 @@ TEST_CASE("a long log without blocks lies on the path, whole or cut off, at rest
     CHECK(loss_of(rests, path) < 1e-9);
 }
 
+TEST_CASE("a long log with few rows beside a finely divided path") {
+    const ControlPath coarse = passes(600);
+    ControlPath path = coarse;
+    path.nodes.resize(1);
+    LogView log = samples(coarse, 0, coarse.nodes.size() - 1, length_mm);
+    for (std::size_t k = 1; k < coarse.nodes.size(); ++k)
+        for (int part = 1; part <= 100; ++part) {
+            choices::PathNode node = coarse.nodes[k];
+            const auto& from = coarse.nodes[k - 1].at;
+            for (const Axis axis : log.axes)
+                node.at[axis] = from[axis] + (node.at[axis] - from[axis]) * part / 100.0;
+            node.end = part == 100;
+            path.nodes.push_back(node);
+        }
+    REQUIRE(log.rows.size() * path.nodes.size() > 50'000'000);
+    CHECK(loss_of(log, path) < 1e-9);
+}
+
 TEST_CASE("a long log of another offset and with noise is paired row by row") {
     const ControlPath path = passes(500);
     LogView log = samples(path, 0, path.nodes.size() - 1, 0.8);

@@ -73,10 +73,22 @@ TEST_CASE("the step of a log is that of its values where they are coarser than p
     };
     CHECK(step_of(0.00254, 5, 500) == Approx(0.00254).epsilon(1e-3));
     CHECK(step_of(0.00254, 6, 500) == Approx(0.00254).epsilon(1e-3));
+    CHECK(step_of(0.00254, 4, 500) == Approx(0.00254).epsilon(1e-3));
     CHECK(step_of(0.01, 4, 500) == Approx(0.01).epsilon(1e-3));
     CHECK(step_of(0.001, 3, 500) == Approx(0.001));
     CHECK(step_of(1e-5, 5, 500) == Approx(1e-5));
     CHECK(step_of(0.01, 4, 20) == Approx(1e-4));  // too few to tell
+    // The lowest values stand alone: from them on, the step is not yet known well enough.
+    std::string text = "line,x_mm,y_mm\n3,-97.3099,-61.7601\n";
+    for (int k = 0; k < 400; ++k) {
+        char line[80];
+        std::snprintf(line, sizeof line, "3,%.4f,%.4f\n",
+                      0.00254 * std::round(40.0 * std::sin(0.02 * k) / 0.00254),
+                      0.00254 * std::round((0.137 * k - 7.0) / 0.00254));
+        text += line;
+    }
+    CHECK(imports::read_position_log(text, "log.csv", import_bench::setup()).step ==
+          Approx(0.00254).epsilon(1e-3));
 }
 
 TEST_CASE("a log of positions of some axes is imported without the others") {

@@ -1,0 +1,15 @@
+// Numbers of tools and offsets in the text of programs.
+#pragma once
+
+#include <set>
+#include <vector>
+
+#include "interpreter/program_source.h"
+
+namespace trunnion::choices {
+
+/// Numbers behind H, D and T outside of comments: an offset that is empty on this control may be
+/// one that the other control has. An expression (H#1) names none.
+std::set<int> offset_words(const std::vector<interpreter::ProgramText>& texts);
+
+}  // namespace trunnion::choices
