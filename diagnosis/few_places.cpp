@@ -12,13 +12,21 @@
 namespace trunnion::diagnosis {
 namespace {
 
-/// The widest way between two neighbouring positions of an axis, rad or mm.
-double widest_step(const Prepared& prepared, Axis axis) {
-    std::set<double> places;
+/// The widest way between two neighbouring positions of a rotary axis, rad. Over more than a turn
+/// the positions of all turns are one circle.
+double widest_step_rad(const Prepared& prepared, Axis axis) {
+    std::set<double> places_rad;
     for (std::size_t i = 0; i < prepared.replay.size(); ++i)
-        places.insert(prepared.replay.sample(i).position[axis]);
-    double widest = 0.0, before = *places.begin();
-    for (const double place : places) {
+        places_rad.insert(prepared.replay.sample(i).position[axis]);
+    if (*places_rad.rbegin() - *places_rad.begin() > 2.0 * pi) {
+        std::set<double> circle_rad;
+        for (const double q : places_rad)
+            circle_rad.insert(q - 2.0 * pi * std::floor(q / (2.0 * pi)));
+        circle_rad.insert(*circle_rad.begin() + 2.0 * pi);
+        places_rad = std::move(circle_rad);
+    }
+    double widest = 0.0, before = *places_rad.begin();
+    for (const double place : places_rad) {
         widest = std::max(widest, place - before);
         before = place;
     }
@@ -32,7 +40,7 @@ bool waves_between_places(const Prepared& prepared, const ColumnGroup& group, Ax
     for (const std::size_t k : group.parameters)
         order = std::max(order, group.effect->parameters[k].order);
     constexpr double even = 1.01;  // positions in equal steps are rounded
-    return order > 0 && widest_step(prepared, axis) > even * pi / order;
+    return order > 0 && widest_step_rad(prepared, axis) > even * pi / order;
 }
 
 bool shows_no_displacement(const Prepared& p, std::size_t row) {

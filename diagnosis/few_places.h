@@ -1,4 +1,4 @@
-// Textbook forms that are read at so few places that they say nothing between them.
+// Axes that were read at few places: what is not told there, and what holds there alone.
 #pragma once
 
 #include "diagnosis/prepare.h"

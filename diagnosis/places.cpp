@@ -24,12 +24,6 @@ SharedZero shared_of(const Prepared& p, std::size_t row) {
     return {c.device, c.zero, c.artefact, c.instrument, p.replay.session(row)};
 }
 
-bool is_rotary(const Prepared& p, Axis axis) {
-    const auto axes = p.base.setup.machine.chain.axes();
-    return std::any_of(axes.begin(), axes.end(),
-                       [&](const auto& a) { return a.axis == axis && a.rotary; });
-}
-
 double range_of(const Prepared& p, Axis axis) {
     double low = HUGE_VAL, high = -HUGE_VAL;
     for (std::size_t i = 0; i < p.replay.size(); ++i) {
@@ -45,7 +39,7 @@ std::vector<bool> tells_place(const Prepared& p, Axis axis) {
     struct Span {
         double low = HUGE_VAL, high = -HUGE_VAL;
     };
-    const double least = is_rotary(p, axis) ? least_response : least_of_response;
+    const double least = p.table.names.is_rotary(axis) ? least_response : least_of_response;
     std::vector<bool> tells(p.replay.size());
     std::map<SharedZero, Span> spans;
     for (std::size_t i = 0; i < p.replay.size(); ++i) {

@@ -25,7 +25,7 @@ constexpr double of_line = 2.0 / 3.0;   ///< probability of positioning against 
 constexpr double spoiled_part = 0.02;   ///< of all readings, beforehand (assumed)
 constexpr double least_evidence = 3.0;  ///< nats, for the whole model
 constexpr double course_evidence =
-    9.0;                              ///< ... for a course of time over tests whose zeros scatter
+    9.0;  ///< ... for a course of time over tests whose zeros scatter
 constexpr double plain_evidence = 15.0;  ///< ... above which left-out blocks need not agree
 constexpr double plain_chance = 1e-3;    ///< ... or below this chance, where repeats tell the noise
 constexpr double least_t = 2.0;          ///< t statistic of the loss saved on left-out blocks

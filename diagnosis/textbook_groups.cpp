@@ -87,6 +87,7 @@ bool has_own_gains(const effects::Effect& effect) {
     return effect.kind == effects::EffectKind::sensor_gain && effect.parameters.size() > 1;
 }
 
+/// Forms of one parameter each.
 std::vector<Takes> each_alone(const effects::Effect& effect) {
     std::vector<Takes> forms;
     for (const effects::EffectParameter& one : effect.parameters)

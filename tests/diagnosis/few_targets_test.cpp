@@ -120,4 +120,15 @@ TEST_CASE("harmonics of a turn say nothing across a gap between the places", "[d
     }
 }
 
+TEST_CASE("positions of several turns are those of one circle", "[diagnosis]") {
+    records::ReadingTable seen = read(eccentric, 12, 3, 7);
+    for (records::Reading& row : seen.rows)
+        if (row.commanded[Axis::C] > pi - 0.1) row.commanded[Axis::C] += 20.0 * pi;
+    const diagnosis::Diagnosis d = diagnosis::diagnose(table(), seen, {.plan_next = false});
+    INFO(said(d));
+    REQUIRE_FALSE(d.causes.empty());
+    CHECK(d.causes.front().effect == "C.positioning");
+    CHECK(d.between_places);
+}
+
 }  // namespace trunnion
