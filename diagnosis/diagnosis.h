@@ -59,6 +59,7 @@ struct Cause {
     bool holds_between = true;       ///< a free form that predicts places left out
     std::string since;               ///< a change: the session from which it holds; else empty
     bool known = true;               ///< false: structure that nothing in the catalogue explains
+    bool written = true;             ///< false: it does not stand in Diagnosis::setup
 };
 
 /// Change of one parameter of the machine from one session to the next.

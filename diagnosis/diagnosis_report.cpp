@@ -271,6 +271,14 @@ void add_unknown(const Outcome& f, Diagnosis& d) {
     d.causes.insert(at, std::move(unknown));
 }
 
+/// True where the error of a group stands in a written model, in the same form or as a part of it.
+bool is_written(const Design& design, const Model& written, const ColumnGroup& claimed) {
+    return std::any_of(written.members.begin(), written.members.end(), [&](std::size_t m) {
+        const ColumnGroup& group = design.group(m);
+        return is_cause(group.kind) && group.name == claimed.name && group.since == claimed.since;
+    });
+}
+
 Outcome with_judgement(const Outcome& found, const Judgement& judgement) {
     return {found.prepared, found.design, found.setting,       found.model, judgement,
             found.noise,    found.used,   found.beside_set_up, found.found};
@@ -333,6 +341,8 @@ Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options) {
     for (const Claim& claim : claims) {
         d.causes.push_back(cause_of({f.design, f.model, f.judgement, solution, covariance}, claim));
         d.causes.back().heldout = alone(f, claim.position, draws);
+        d.causes.back().written = is_written(f.design, written.model,
+                                             f.design.group(f.model.members[claim.position]));
     }
     add_scales(f.prepared.catalogue, d.causes);
     d.after = held_out(f, written.blocks.before, written.blocks.after);

@@ -37,6 +37,7 @@ Json json_of(const diagnosis::Cause& cause) {
               {"parameters", json_parameters(cause.parameters)},
               {"inseparable", json_inseparable(cause.unseen)},
               {"share", cause.share},
+              {"written", cause.known && cause.written},
               {"heldout", json_of(cause.heldout)},
               {"what", cause.what},
               {"usual_cause", cause.usual_cause},

@@ -183,8 +183,10 @@ std::string claim_words(const diagnosis::Cause& cause) {
 }
 
 std::string cause_heading(const diagnosis::Diagnosis& d, const diagnosis::Cause& cause) {
+    const std::string missing = missing_in_setup(d, cause);
     return "<h3>" + escape_xml(cause_name(d, cause)) + "</h3>\n<p class=\"note\">" +
-           escape_xml(upper_first(claim_words(cause))) + ".</p>\n";
+           escape_xml(upper_first(claim_words(cause))) + "." +
+           (missing.empty() ? "" : " " + escape_xml(upper_first(missing)) + ".") + "</p>\n";
 }
 
 std::string free_form_section(const diagnosis::Diagnosis& d, const diagnosis::Cause& cause) {

@@ -57,6 +57,8 @@ std::string cause_text(const diagnosis::Diagnosis& d, const diagnosis::Cause& ca
     if (!cause.rivals.empty())
         text +=
             paragraph(fmt::format("{}: {}", rivals_words(cause), fmt::join(cause.rivals, ", ")), 2);
+    if (const std::string missing = missing_in_setup(d, cause); !missing.empty())
+        text += paragraph(missing, 2);
     text += fmt::format(
         "  held out: {} -> {} (noise {}): ", size_words(d, cause.heldout.rms_before_um),
         size_words(d, cause.heldout.rms_after_um), size_words(d, cause.heldout.noise_um));

@@ -184,6 +184,11 @@ std::string cause_name(const diagnosis::Diagnosis& d, const diagnosis::Cause& ca
     return cause.effect + (other_table ? " (" + errors_of(cause) + ')' : " as a table") + since;
 }
 
+std::string missing_in_setup(const diagnosis::Diagnosis& d, const diagnosis::Cause& cause) {
+    if (!d.writes_causes || cause.written || !cause.known || !is_claimed(cause)) return "";
+    return "not in the written setup (--out): these readings do not show that it predicts others";
+}
+
 std::vector<std::string> unseen_effects(const diagnosis::Diagnosis& d) {
     const auto is_named = [&](const std::string& name) {
         return std::any_of(d.causes.begin(), d.causes.end(), [&](const auto& cause) {

@@ -23,6 +23,8 @@ std::string size_words(const diagnosis::Diagnosis& d, double size);
 std::string cause_name(const diagnosis::Diagnosis& d, const diagnosis::Cause& cause);
 /// Probable enough to be said; others are only listed.
 bool is_claimed(const diagnosis::Cause& cause);
+/// Words for a claimed cause that the setup of `--out` lacks although it has others; else empty.
+std::string missing_in_setup(const diagnosis::Diagnosis& d, const diagnosis::Cause& cause);
 /// Effects that the readings do not determine, without those that are a cause or a rival of one.
 std::vector<std::string> unseen_effects(const diagnosis::Diagnosis& d);
 /// "-27 to 43"; a lower end below -100 tells only that the gap may grow: "at most 44; ..".

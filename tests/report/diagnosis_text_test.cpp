@@ -165,6 +165,20 @@ TEST_CASE("values that are none of them certain are said to be so") {
     CHECK_THAT(report::diagnosis_text(d), !Catch::Contains(words));
 }
 
+TEST_CASE("a claimed cause that the written setup lacks is told, where that has others") {
+    diagnosis::Diagnosis d = with_parameters({});
+    d.causes.front().probability = 0.9;
+    const std::string words = "not in the written setup";
+    CHECK_THAT(report::diagnosis_text(d), !Catch::Contains(words));
+    d.causes.front().written = false;
+    CHECK_THAT(report::diagnosis_text(d), Catch::Contains(words));
+    d.causes.front().probability = 0.4;  // not claimed
+    CHECK_THAT(report::diagnosis_text(d), !Catch::Contains(words));
+    d.causes.front().probability = 0.9;
+    d.writes_causes = false;  // told once, of all
+    CHECK_THAT(report::diagnosis_text(d), !Catch::Contains(words));
+}
+
 TEST_CASE("a verdict says where it holds, and does not name for sure what is not") {
     diagnosis::Diagnosis d = with_parameters({});
     d.causes.front().probability = 0.9;
