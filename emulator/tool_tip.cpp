@@ -5,9 +5,7 @@
 #include "positioning/rotary_transform.h"
 
 namespace trunnion::emulator {
-namespace {
 
-/// As [tools] or offset T of the setup says; 0 for a tool that it does not know.
 double tool_length_mm(const setup::Setup& setup, int tool) {
     if (const auto own = setup.tools.find(tool); own != setup.tools.end())
         return own->second.length_mm;
@@ -15,8 +13,6 @@ double tool_length_mm(const setup::Setup& setup, int tool) {
     const auto n = static_cast<std::size_t>(std::max(0, tool));
     return n == 0 || n >= tools.size() ? 0.0 : tools[n].length_mm();
 }
-
-}  // namespace
 
 Vector3 physical_tip_S(const setup::Setup& setup, const motion::AxisMove& move,
                        double extension_mm) {

@@ -6,6 +6,10 @@
 
 namespace trunnion::emulator {
 
+/// Length of tool T from gauge point to tip, mm, as [tools] or else offset T of the setup says; 0
+/// for a tool that the setup does not know.
+double tool_length_mm(const setup::Setup& setup, int tool);
+
 /// The physical tip in S during a move: the stylus when the setup's probe is in the spindle, else
 /// tool T, as long as [tools] or else offset T of the setup says, whatever H is in force. A tool
 /// that the setup does not know (none called, no length) is as long as the control believes. It

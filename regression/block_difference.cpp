@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <string_view>
 #include <vector>
 
 #include "interpreter/lexical.h"
@@ -118,6 +119,12 @@ std::string centre_cause(const std::vector<WrittenWord>& a, const std::vector<Wr
     return {};
 }
 
+/// True of words whose value is an amount: codes and numbers (G43.4, T2, H1) have no other size.
+bool is_amount(const WrittenWord& word) {
+    constexpr std::string_view amounts = "ABCEFIJKQRUVWXYZ";
+    return amounts.find(word.letter) != std::string_view::npos;
+}
+
 /// A name for the change of the values.
 std::string value_cause(const std::vector<WrittenWord>& a, const std::vector<WrittenWord>& b) {
     const auto pairs = [&](const auto& holds) { return all_pairs(a, b, holds); };
@@ -157,7 +164,7 @@ BlockDifference block_difference(const std::string& block_a, const std::string& 
     const auto computed = [](const WrittenWord& w) { return w.computed(); };
     const bool plain =
         std::none_of(a.begin(), a.end(), computed) && std::none_of(b.begin(), b.end(), computed);
-    if (plain && same_letters(a, b)) {
+    if (plain && same_letters(a, b) && std::all_of(a.begin(), a.end(), is_amount)) {
         name = value_cause(a, b);
         if (name.empty()) name = centre_cause(a, b, start);
     }

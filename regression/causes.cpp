@@ -103,7 +103,8 @@ class Explainer {
         const Fields now = differing(i, j, explaining(c.kind));
         Fields fresh = now;
         if (i > 1 && j > 1) {
-            const Fields before = differing(i - 1, j - 1, explaining(c.kind));
+            const Fields before =
+                differing(move_before(path_a_, i), move_before(path_b_, j), explaining(c.kind));
             std::erase_if(fresh, [&](std::size_t f) {
                 return std::find(before.begin(), before.end(), f) != before.end();
             });
@@ -113,6 +114,14 @@ class Explainer {
         if (!active_.group.empty() && active_fields_stand(now)) return active_;
         if (Found written = by_blocks(c, i, j); !written.cause.empty()) return written;
         return hidden(now, i, j);
+    }
+
+    /// The change of a tool is no move: the states of the block behind it are those of its move.
+    static std::uint64_t move_before(SegmentWindow& path, std::uint64_t at) {
+        std::uint64_t before = at - 1;
+        while (before > 1 && before < path.size() && path[before].kind == SegmentKind::jump)
+            --before;
+        return before;
     }
 
     Found hidden(Fields now, std::uint64_t i, std::uint64_t j) {

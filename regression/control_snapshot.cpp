@@ -28,6 +28,7 @@ void read_frames(const controller::Frames& frames, ControlSnapshot& s) {
     s.origin_mm = xyz(origin);
     s.origin_deg = {number(origin[Axis::A]), number(origin[Axis::B]), number(origin[Axis::C])};
     s.local_mm = xyz(stages.local);
+    s.preset_mm = xyz(stages.preset);
     s.rotation_deg = stages.rotation ? number(stages.rotation->angle_deg) : 0.0F;
     s.scale = {1.0F, 1.0F, 1.0F};
     for (const auto* factor : {&stages.scaling, &stages.mirror})
@@ -62,10 +63,10 @@ void read_numbers(const controller::Control& c, ControlSnapshot& s) {
     s.radius_mm = number(radius_in_force_mm(c));
 }
 
-/// G5.1 Q, G5 P, G8 P: accepted by the control without effect on positions.
+/// G5.1 Q R, G5 P, G8 P: accepted by the control without effect on positions.
 void read_smoothing(const controller::SortedWords& words, ControlSnapshot& s) {
-    constexpr std::array<int, 3> code10{51, 50, 80};
-    constexpr std::array<char, 3> letter{'Q', 'P', 'P'};
+    constexpr std::array<int, 4> code10{51, 51, 50, 80};
+    constexpr std::array<char, 4> letter{'Q', 'R', 'P', 'P'};
     for (std::size_t k = 0; k < words.code_count; ++k)
         for (std::size_t n = 0; n < code10.size(); ++n)
             if (words.code[k]->code10 == code10[n])
@@ -104,6 +105,8 @@ BlockLook look_at(const controller::Control& c, ControlSnapshot& s) {
     read_numbers(c, s);
     read_frames(c.frames, s);
     read_smoothing(c.words, s);
+    for (int k = 0; k < 2; ++k)
+        s.overrides[static_cast<std::size_t>(k)] = number(c.clock.get(3003 + k, 0.0).value_or(0.0));
     BlockLook look;
     look.line = c.modal.block.line;
     look.program = c.modal.block.program;
@@ -113,6 +116,25 @@ BlockLook look_at(const controller::Control& c, ControlSnapshot& s) {
     look.bare_words_meet_no_parameter =
         c.words.bare != 0 && has_bare_length(c.words) && !c.stores.parameters.find(3401);
     return look;
+}
+
+UnsetOffsets unset_offsets(const controller::Control& c) {
+    const auto row = [&c](int n) {
+        const auto& tools = c.stores.tools.tool;
+        const auto k = static_cast<std::size_t>(std::max(0, n));
+        return k < tools.size() ? tools[k] : offsets::ToolOffset{};
+    };
+    UnsetOffsets unset;
+    unset.length = c.frames.tool.number;
+    unset.length_is_set = row(unset.length).length_mm() != 0.0;
+    if (const int d = c.modal.number.radius; !c.modal.cutter_is_off() && row(d).radius_mm() == 0.0)
+        unset.radius = c.modal.codes.code10[7] == 420 ? -d : d;
+    const auto& work = c.frames.stages.work.value;
+    if (std::all_of(work.begin(), work.end(), [](double value) { return value == 0.0; })) {
+        const int code10 = c.modal.codes.code10[14];
+        unset.work = code10 == 541 ? 100 + c.modal.number.work : code10 / 10;
+    }
+    return unset;
 }
 
 int tool_in_spindle(const controller::Control& control) {
@@ -199,6 +221,8 @@ const SnapshotField fields[] = {
      [](S s) { return vector_text("scaling or mirror", s.scale); }},
     {"local shift", explains_path, [](S s) { return of(s.local_mm); },
      [](S s) { return vector_text("G52", s.local_mm); }},
+    {"preset", explains_path, [](S s) { return of(s.preset_mm); },
+     [](S s) { return vector_text("G92", s.preset_mm); }},
     modal<17>("polar words", explains_path),
     modal<21>("polar interpolation", explains_path),
     {"fixture offset", explains_path,

@@ -32,10 +32,12 @@ struct ControlSnapshot {
                                                    ///< coordinates
     std::array<float, 3> origin_deg{};             ///< the same of A B C
     std::array<float, 3> local_mm{};               ///< G52
+    std::array<float, 3> preset_mm{};              ///< G92
     std::array<float, 9> feature{};                ///< rotation of the tilted plane
     std::array<float, 3> scale{1.0F, 1.0F, 1.0F};  ///< G51 times G51.1
     float rotation_deg = 0.0F;                     ///< G68
-    std::array<float, 3> smoothing{};              ///< values of G5.1 Q, G5 P, G8 P
+    std::array<float, 4> smoothing{};              ///< values of G5.1 Q, G5.1 R, G5 P, G8 P
+    std::array<float, 2> overrides{};              ///< #3003, #3004: what the operator may not stop
     friend bool operator==(const ControlSnapshot&, const ControlSnapshot&) = default;
 };
 
@@ -47,6 +49,15 @@ struct BlockLook {
     std::array<double, 3> rotary_deg{};         ///< A B C, machine positions
     bool bare_words_meet_no_parameter = false;  ///< numbers without point while 3401 is not given
 };
+
+/// Offsets in force whose values the stores do not have: the path does not tell one from another.
+struct UnsetOffsets {
+    std::int32_t length = 0;  ///< H of G43, G44; 0: none. Its own value is not asked here
+    bool length_is_set = false;
+    std::int32_t radius = 0;  ///< D, negative under G42; 0: none, or its radius is set
+    std::int32_t work = 0;    ///< 54 .. 59, 100 + P of G54.1; 0: its values are not all 0
+};
+UnsetOffsets unset_offsets(const controller::Control& control);
 
 /// Updates `snapshot` (`smoothing` is kept from block to block).
 BlockLook look_at(const controller::Control& control, ControlSnapshot& snapshot);

@@ -13,6 +13,27 @@ namespace {
 
 using Values = std::map<std::string, double>;
 
+constexpr const char* left_active = "left active: ";
+
+/// What the last block leaves in force, so that the next program starts somewhere else.
+void add_left_active(const ControlSnapshot& s, Values& v) {
+    const auto add = [&v](const std::string& name, double value) {
+        if (std::abs(value) > 1e-6) v[left_active + name] = value;
+    };
+    for (std::size_t k = 0; k < 3; ++k) {
+        const char letter = "XYZ"[k];
+        add(fmt::format("G92 {}", letter), s.preset_mm[k]);
+        add(fmt::format("G52 {}", letter), s.local_mm[k]);
+        add(fmt::format("scale of {}", letter), s.scale[k] - 1.0);
+    }
+    for (std::size_t k = 0; k < 3; ++k)
+        add(fmt::format("tilted plane, normal {}", "XYZ"[k]), s.feature[3 * k + 2]);
+    add("rotation G68 R", s.rotation_deg);
+    add("G54.2 P", s.fixture_number);
+    add("#3003", s.overrides[0]);
+    add("#3004", s.overrides[1]);
+}
+
 /// The stores as named values, without default values.
 Values values_of(const RecordedRun& run) {
     Values v;
@@ -22,6 +43,7 @@ Values values_of(const RecordedRun& run) {
     const auto add_vector = [&](const std::string& name, const offsets::OffsetVector& offset) {
         for (const Axis axis : all_axes) add(name + " " + letter_of(axis), offset[axis]);
     };
+    add_left_active(run.last_state, v);
     for (const auto& [number, value] : run.variables) v[fmt::format("#{}", number)] = value;
     add_vector("external offset", run.stores.work.external);
     for (std::size_t k = 0; k < run.stores.work.standard.size(); ++k)
@@ -119,7 +141,9 @@ void compare_leftovers(const RecordedRun& a, const RecordedRun& b, bool stores,
     Values in_a = values_of(a), in_b = values_of(b);
     if (!stores)
         for (Values* values : {&in_a, &in_b})
-            std::erase_if(*values, [](const auto& v) { return !v.first.starts_with("#"); });
+            std::erase_if(*values, [](const auto& v) {
+                return !v.first.starts_with("#") && !v.first.starts_with(left_active);
+            });
     for (int number = 100; number < 200; ++number) {
         const std::string name = fmt::format("#{}", number);
         if (in_a.contains(name) == in_b.contains(name)) continue;

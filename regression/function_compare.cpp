@@ -119,13 +119,22 @@ class FunctionComparer {
         return ends;
     }
 
+    /// The path comparison may have reported it: the same words, or an offset that is not set as
+    /// the cause of a move ("G57 instead of G55").
+    bool told_by_path(const std::string& what) const {
+        const std::size_t end = what.find(" (not set)");
+        const std::string offset = end == std::string::npos ? "" : what.substr(0, end) + " instead";
+        return std::any_of(result_.differences.begin(), result_.differences.end(),
+                           [&](const Difference& d) {
+                               return d.cause.starts_with(what) ||
+                                      (!offset.empty() && d.cause.starts_with(offset));
+                           });
+    }
+
     /// `i` or `j` may refer to the function after a missing one; it gives the position.
     void add(const std::string& what, std::uint64_t i, std::uint64_t j, double value_a,
              double value_b) {
-        // The path comparison may already have reported it.
-        if (std::any_of(result_.differences.begin(), result_.differences.end(),
-                        [&](const Difference& d) { return d.cause.starts_with(what); }))
-            return;
+        if (told_by_path(what)) return;
         const auto known = known_.find(what);
         if (known != known_.end()) {
             ++result_.differences[known->second].count;

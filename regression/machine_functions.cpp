@@ -25,10 +25,32 @@ std::uint32_t line_of(const BlockLook& look) {
 
 }  // namespace
 
-void FunctionRecorder::before_move(const motion::AxisMove& move) {
-    if (move.kind != motion::MotionKind::rapid) now_.exact_stop = move.gap_free ? 0 : 1;
+void FunctionRecorder::before_move(const motion::AxisMove& move, const UnsetOffsets& unset,
+                                   bool tool_is_known) {
+    if (move.kind != motion::MotionKind::rapid) {
+        now_.exact_stop = move.gap_free ? 0 : 1;
+        tell_offsets(unset, tool_is_known);
+    }
     tell_states();
     mode_ = static_cast<std::uint8_t>(move.mode);
+}
+
+/// Offsets count where something is cut.
+void FunctionRecorder::tell_offsets(const UnsetOffsets& unset, bool tool_is_known) {
+    std::array<float, 4> now{};
+    if (!tool_is_known)
+        now[static_cast<std::size_t>(unset.length_is_set ? OffsetKind::known_length
+                                                         : OffsetKind::length)] =
+            static_cast<float>(unset.length);
+    now[static_cast<std::size_t>(OffsetKind::radius)] = static_cast<float>(unset.radius);
+    now[static_cast<std::size_t>(OffsetKind::work)] = static_cast<float>(unset.work);
+    tell_values(now, offsets_, FunctionKind::offset);
+}
+
+void FunctionRecorder::tell_values(std::span<const float> now, std::span<float> told,
+                                   FunctionKind kind) {
+    for (std::size_t k = 0; k < told.size(); ++k)
+        if (now[k] != told[k]) add(kind, told[k] = now[k], static_cast<double>(k), false);
 }
 
 void FunctionRecorder::dwell(double duration_s) {
@@ -73,10 +95,8 @@ void FunctionRecorder::block(const ControlSnapshot& s, const BlockLook& look) {
     const std::int16_t path_mode = s.modal10[15] == 610 ? std::int16_t{640} : s.modal10[15];
     if (path_mode != path_mode_) add(FunctionKind::path_mode, path_mode * 0.1, 0.0, false);
     path_mode_ = path_mode;
-    for (std::size_t k = 0; k < smoothing_.size(); ++k)
-        if (s.smoothing[k] != smoothing_[k])
-            add(FunctionKind::smoothing, s.smoothing[k], static_cast<double>(k), false);
-    smoothing_ = s.smoothing;
+    tell_values(s.smoothing, smoothing_, FunctionKind::smoothing);
+    tell_values(s.overrides, overrides_, FunctionKind::override_bits);
     if (look.store_key != 0) {
         tell_states();
         add(FunctionKind::store, static_cast<double>(look.store_key >> 20U), 0.0, false);
@@ -132,8 +152,32 @@ void FunctionRecorder::write_held(std::uint32_t line, std::uint16_t program) {
     held_.clear();
 }
 
+namespace {
+
+/// "H5 (length not set)": an offset that the stores do not tell from others.
+std::string offset_text(OffsetKind kind, double value) {
+    switch (kind) {
+        case OffsetKind::length:
+            return value == 0.0 ? "no H without a length"
+                                : fmt::format("H{:g} (length not set)", value);
+        case OffsetKind::known_length:
+            return value == 0.0 ? "no H" : fmt::format("H{:g} (of a tool without a length)", value);
+        case OffsetKind::radius:
+            return value == 0.0 ? "no D without a radius"
+                                : fmt::format("{} D{:g} (radius not set)",
+                                              value < 0.0 ? "G42" : "G41", std::abs(value));
+        case OffsetKind::work:
+            return value == 0.0    ? "a work offset with values"
+                   : value < 100.0 ? fmt::format("G{:g} (not set)", value)
+                                   : fmt::format("G54.1 P{:g} (not set)", value - 100.0);
+    }
+    return {};
+}
+
+}  // namespace
+
 std::string text_of(const FunctionEvent& e) {
-    static constexpr std::array<const char*, 3> smoothing{"G5.1 Q", "G5 P", "G8 P"};
+    static constexpr std::array<const char*, 4> smoothing{"G5.1 Q", "G5.1 R", "G5 P", "G8 P"};
     switch (e.kind) {
         case FunctionKind::m_code:
             return e.value == 6.0 ? fmt::format("T{:g} M6", e.detail)
@@ -148,6 +192,9 @@ std::string text_of(const FunctionEvent& e) {
         case FunctionKind::path_mode: return fmt::format("G{:g}", e.value);
         case FunctionKind::smoothing:
             return fmt::format("{}{:g}", smoothing[static_cast<std::size_t>(e.detail)], e.value);
+        case FunctionKind::override_bits:
+            return fmt::format("#{:g}={:g}", 3003.0 + e.detail, e.value);
+        case FunctionKind::offset: return offset_text(static_cast<OffsetKind>(e.detail), e.value);
         case FunctionKind::store: return "G10 that writes a store";
     }
     return {};

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 
 #include "motion/motion.h"
@@ -21,6 +22,8 @@ enum class FunctionKind : std::uint8_t {
     exact_stop,
     path_mode,
     smoothing,
+    override_bits,
+    offset,
     store
 };
 
@@ -29,7 +32,8 @@ struct FunctionEvent {
     std::uint64_t key = 0;           ///< equal for the same function; excludes the duration of a
                                      ///< dwell
     double value = 0.0;              ///< code, seconds or tool, depending on `kind`
-    double detail = 0.0;             ///< tool loaded by M6; which code of `smoothing`
+    double detail = 0.0;             ///< tool loaded by M6; which of `smoothing`, `override_bits`
+                                     ///< or `offset` (OffsetKind)
     double cut_mm = 0.0;             ///< length of all cuts before it
     std::array<double, 3> tip_mm{};  ///< tip position in W
     std::uint32_t line = 0;
@@ -40,6 +44,11 @@ struct FunctionEvent {
 };
 using FunctionEvents = SpilledArray<FunctionEvent>;
 
+/// Which offset an event of kind `offset` is about. The values of these are not in the stores, so
+/// that the path does not show which one is in force; `known_length`: of a tool that the setup does
+/// not know, so that the path does not show whether the offset is the right one.
+enum class OffsetKind : std::uint8_t { length, known_length, radius, work };
+
 /// Collects the functions of one run. Spindle, coolant and exact stop are states that count at the
 /// next move, dwell or other function: M3 S500 in one block or in two is the same, and M8 twice is
 /// M8 once. After M6, M0 and M1 nothing counts as still commanded, because a real machine then
@@ -49,7 +58,8 @@ class FunctionRecorder {
     FunctionRecorder(FunctionEvents& events, PathRecord& path, KeyedLines& blocks)
         : events_(events), path_(path), blocks_(blocks) {}
 
-    void before_move(const motion::AxisMove& move);
+    /// `tool_is_known`: the path shows whether the length in force is that of the tool.
+    void before_move(const motion::AxisMove& move, const UnsetOffsets& unset, bool tool_is_known);
     void dwell(double duration_s);
     /// `tool`: in the spindle after the code.
     void m_code(int code, int tool, int line);
@@ -64,6 +74,8 @@ class FunctionRecorder {
         std::uint32_t spindle_line = 0, coolant_line = 0;  ///< lines that commanded them
     };
     void tell_states();
+    void tell_offsets(const UnsetOffsets& unset, bool tool_is_known);
+    void tell_values(std::span<const float> now, std::span<float> told, FunctionKind kind);
     void tell(int now, int& told, FunctionKind kind, std::uint32_t line = 0);
     FunctionEvent& add(FunctionKind kind, double value, double detail = 0.0, bool placed = true);
     void write_held(std::uint32_t line, std::uint16_t program);
@@ -75,7 +87,9 @@ class FunctionRecorder {
     std::int16_t path_mode_ = 640;
     bool exact_mode_ = false;
     std::uint32_t exact_line_ = 0;  ///< of G61 or G64 that no move has told; 0: the running block
-    std::array<float, 3> smoothing_{};
+    std::array<float, 4> smoothing_{};
+    std::array<float, 2> overrides_{};
+    std::array<float, 4> offsets_{};  ///< told last, by OffsetKind
     std::uint8_t mode_ = 0;
     std::vector<FunctionEvent> held_;  ///< of the running block, whose line is known at its end
 };

@@ -54,39 +54,39 @@ void PathRecorder::finish() {
 }
 
 /// Prepares the map from X Y Z to the tip for the rotary positions in frame_.
-void PathRecorder::refresh(const motion::AxisMove& move) {
-    frame_.tool_vector_mm = move.tool_vector_mm;
-    frame_.transform = move.transform;
+void PathRecorder::refresh() {
+    frame_.tool_vector_mm = vector_mm_;
+    frame_.transform = transform_;
     frame_.valid = true;
-    if (move.transform == nullptr) {
+    if (transform_ == nullptr) {
         frame_.rotation = Matrix3::Identity();
-        frame_.translation_mm = -move.tool_vector_mm;
+        frame_.translation_mm = -vector_mm_;
         frame_.direction = direction_without_transform(frame_.rotary);
         return;
     }
-    frame_.table_point_mm = move.transform->pivot().table_point_mm;
-    frame_.table_offset_mm = move.transform->pivot().table_offset_mm;
+    frame_.table_point_mm = transform_->pivot().table_point_mm;
+    frame_.table_offset_mm = transform_->pivot().table_offset_mm;
     AxisPositions at = frame_.rotary;
-    const Pose pose_WM = move.transform->pose_MW(at).inverse();
+    const Pose pose_WM = transform_->pose_MW(at).inverse();
     for (const Axis axis : all_axes)
         if (!is_rotary(axis)) at[axis] = 0.0;
     frame_.rotation = pose_WM.rotation;
-    frame_.translation_mm = move.transform->tip_W(at, move.tool_vector_mm);
-    frame_.direction = move.transform->tool_direction_W(at);
+    frame_.translation_mm = transform_->tip_W(at, vector_mm_);
+    frame_.direction = transform_->tool_direction_W(at);
 }
 
 PathPoint PathRecorder::point(const motion::AxisMove& move, const AxisPositions& at) {
     const Vector3 linear_mm = move.parallel.linear(at);
     if (space_ == PathSpace::joints) return {linear_mm, rotary_of(at)};
-    const positioning::RotaryTransform* t = move.transform;
+    const positioning::RotaryTransform* t = transform_;
     const bool same = frame_.valid && frame_.transform == t &&
                       rotary_of(frame_.rotary) == rotary_of(at) &&
-                      frame_.tool_vector_mm == move.tool_vector_mm &&
+                      frame_.tool_vector_mm == vector_mm_ &&
                       (t == nullptr || (t->pivot().table_point_mm == frame_.table_point_mm &&
                                         t->pivot().table_offset_mm == frame_.table_offset_mm));
     if (!same) {
         frame_.rotary = at;
-        refresh(move);
+        refresh();
     }
     return {frame_.rotation * linear_mm + frame_.translation_mm, frame_.direction};
 }
@@ -115,23 +115,32 @@ void PathRecorder::see_through(const positioning::RotaryTransform* transform,
     seen_length_mm_ = std::move(tool_length_mm);
 }
 
-motion::MoveResult PathRecorder::move(const motion::AxisMove& move) {
-    const bool cancelled = move.tool_vector_mm.isZero(0.0);
-    if (seen_through_ == nullptr && !(cancelled && held_vector_mm_)) {
-        if (!cancelled) held_vector_mm_ = move.tool_vector_mm;
-        return record(move);
-    }
-    motion::AxisMove seen = move;
-    if (seen_through_ != nullptr) seen.transform = seen_through_;
+/// As the active offset says; without one, as the last one said, so that G49 is no jump.
+Vector3 PathRecorder::offset_vector_mm(const motion::AxisMove& move) const {
+    if (move.tool_vector_mm.isZero(0.0)) return held_vector_mm_.value_or(move.tool_vector_mm);
     const auto offset = static_cast<std::size_t>(std::max(0, move.tool_offset));
-    const double length_mm = move.tool_vector_mm.norm();
-    if (!cancelled && offset < seen_length_mm_.size())
-        seen.tool_vector_mm *= seen_length_mm_[offset] / length_mm;
-    if (!cancelled)
-        held_vector_mm_ = seen.tool_vector_mm;
-    else if (held_vector_mm_)
-        seen.tool_vector_mm = *held_vector_mm_;
-    return record(seen);
+    if (seen_through_ == nullptr || offset >= seen_length_mm_.size()) return move.tool_vector_mm;
+    return seen_length_mm_[offset] / move.tool_vector_mm.norm() * move.tool_vector_mm;
+}
+
+Vector3 PathRecorder::tool_vector_mm(const motion::AxisMove& move) {
+    if (tool_ != move.tool) {
+        tool_ = move.tool;
+        tool_length_mm_ = length_of_tool_mm_ ? length_of_tool_mm_(move.tool) : 0.0;
+    }
+    // Rapids before the first G43 say nothing of the tool's length, which may be measured again.
+    const bool before_any = !held_vector_mm_ && move.tool_vector_mm.isZero(0.0) &&
+                            move.kind == motion::MotionKind::rapid;
+    if (tool_length_mm_ == 0.0 || before_any) return offset_vector_mm(move);
+    return tool_length_mm_ *
+           (transform_ != nullptr ? transform_->pivot().tool_direction : Vector3::UnitZ());
+}
+
+motion::MoveResult PathRecorder::move(const motion::AxisMove& move) {
+    transform_ = seen_through_ != nullptr ? seen_through_ : move.transform;
+    vector_mm_ = tool_vector_mm(move);
+    if (!vector_mm_.isZero(0.0)) held_vector_mm_ = vector_mm_;
+    return record(move);
 }
 
 motion::MoveResult PathRecorder::record(const motion::AxisMove& move) {

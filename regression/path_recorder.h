@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -25,15 +26,25 @@ class PathRecorder : public motion::MotionSink {
     void see_through(const positioning::RotaryTransform* transform,
                      std::vector<double> tool_length_mm);
 
+    /// Length of the tool T from gauge point to tip, mm; 0 where nobody knows it. With it the path
+    /// is that of the tip of the tool in the spindle, whatever offset is active: a wrong or missing
+    /// H moves the tip, and so does a cut without one. A tool of unknown length is as long as the
+    /// active offset says, and so is any in rapids before the first offset.
+    void tools_are(std::function<double(int tool)> length_mm) {
+        length_of_tool_mm_ = std::move(length_mm);
+    }
+
     motion::MoveResult move(const motion::AxisMove& move) override;
     /// `on`: the feed of the following moves follows from length and time (G93).
     void feeds_by_time(bool on) { by_time_ = on; }
     void finish();
 
   private:
+    Vector3 offset_vector_mm(const motion::AxisMove& move) const;
+    Vector3 tool_vector_mm(const motion::AxisMove& move);
     motion::MoveResult record(const motion::AxisMove& move);
     PathPoint point(const motion::AxisMove& move, const AxisPositions& at);
-    void refresh(const motion::AxisMove& move);
+    void refresh();
     Segment plain_segment(const motion::AxisMove& move);
     void add_arc(const motion::AxisMove& move, Segment segment, const PathPoint& end);
     void add_curve(const motion::AxisMove& move, const Segment& segment);
@@ -45,6 +56,12 @@ class PathRecorder : public motion::MotionSink {
     bool begun_ = false, by_time_ = false;
     const positioning::RotaryTransform* seen_through_ = nullptr;
     std::vector<double> seen_length_mm_;
+    std::function<double(int)> length_of_tool_mm_;
+    std::optional<int> tool_;  ///< whose length `tool_length_mm_` is
+    double tool_length_mm_ = 0.0;
+    /// Of the present move: from the tip to the gauge point, and the kinematics it is seen through.
+    Vector3 vector_mm_ = Vector3::Zero();
+    const positioning::RotaryTransform* transform_ = nullptr;
     /// Length active before G49: the path of a fixed spindle point is followed, without jumps.
     std::optional<Vector3> held_vector_mm_;
     const std::string* program_ = nullptr;

@@ -8,6 +8,7 @@
 #include "base/units.h"
 #include "emulator/machine_sink.h"
 #include "emulator/run.h"
+#include "emulator/tool_tip.h"
 #include "interpreter/program_folders.h"
 #include "positioning/rotary_transform.h"
 #include "regression/hash_mix.h"
@@ -66,10 +67,15 @@ class RecordingSink : public motion::MotionSink {
         motion::AxisMove seen = move;
         if (made.skipped) seen.to = made.stopped;
         path_.feeds_by_time(feeds_by_inverse_time(*control_));
-        functions_.before_move(seen);
+        functions_.before_move(seen, unset_offsets(*control_), knows(seen.tool));
         keys_.move(seen);
         path_.move(seen);
         return made;
+    }
+    /// The tools of this setup are in the magazine; it must outlive the run.
+    void tools_of(const setup::Setup& setup) {
+        tools_ = &setup;
+        path_.tools_are([&setup](int tool) { return emulator::tool_length_mm(setup, tool); });
     }
     void see_through(const positioning::RotaryTransform& transform, const offsets::Stores& stores) {
         std::vector<double> lengths_mm;
@@ -97,11 +103,19 @@ class RecordingSink : public motion::MotionSink {
         segments_before_ = run_.path.segments().size();
     }
     void finish() {
+        run_.last_state = state_;
         functions_.finish();
         path_.finish();
     }
 
   private:
+    bool knows(int tool) {
+        if (tool_ != tool) {
+            tool_ = tool;
+            tool_is_known_ = emulator::tool_length_mm(*tools_, tool) != 0.0;
+        }
+        return tool_is_known_;
+    }
     void keep_state(const BlockLook& look) {
         if (run_.states.size() == 0 || !(state_ == kept_)) {
             const bool known = look.program != nullptr;
@@ -120,6 +134,9 @@ class RecordingSink : public motion::MotionSink {
     BlockKeys keys_;
     FunctionRecorder functions_;
     std::optional<emulator::MachineSink> machine_;
+    const setup::Setup* tools_ = nullptr;
+    std::optional<int> tool_;
+    bool tool_is_known_ = false;                    ///< of `tool_`
     const controller::Control* control_ = nullptr;  ///< seen before the first block
     ControlSnapshot state_, kept_;
     std::array<double, 3> rotary_deg_{};
@@ -168,6 +185,7 @@ RecordedRun record_run(const setup::Setup& setup, const interpreter::ProgramText
     RecordingSink sink(run, setup, options);
     const auto seen = seen_through != nullptr ? believed_transform(*seen_through) : std::nullopt;
     if (seen) sink.see_through(*seen, seen_through->stores);
+    sink.tools_of(seen_through != nullptr ? *seen_through : setup);
     interpreter::ProgramFolders folders(folders_of(program, options));
     folders.add_file(program);
     RememberingSource programs(folders, run.opened);

@@ -35,6 +35,7 @@ struct RecordedRun {
     KeyedLines blocks;  ///< one key for each move and function: layer `blocks`
     FunctionEvents functions;
     SpilledArray<StateRow> states;
+    ControlSnapshot last_state;  ///< after the last block
     SpilledArray<RotaryRow> rotaries;
     std::vector<OpenedProgram> opened;  ///< subprograms, in the order of their first call
     bool reads_bare_words = false;      ///< axis words without point occur and 3401 is not given
