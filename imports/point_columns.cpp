@@ -57,12 +57,15 @@ void take(const PointTable& source, std::size_t k, const ColumnRole& role, Point
 }
 
 /// The unit of a deviation is never guessed. Beside nominal and measured it is not needed.
-void refuse_guess(const TextTable& table, std::size_t k, const ColumnRole& role,
+void refuse_guess(const PointTable& source, std::size_t k, const ColumnRole& role,
                   PointColumns& columns) {
     const auto d = component_of(role.axis);
-    const bool both = d && columns.measured[*d] && (columns.nominal[*d] || !columns.axes.empty());
-    if (d && !both) number_column(table, k, Quantity::length, "");
-    columns.unused.push_back(table.columns()[k].name);
+    // Rotary axes alone do not tell where the target should be.
+    const bool placed = std::any_of(columns.axes.begin(), columns.axes.end(),
+                                    [&](const auto& a) { return !turns(source.setup, a.first); });
+    const bool both = d && columns.measured[*d] && (columns.nominal[*d] || placed);
+    if (d && !both) number_column(source.table, k, Quantity::length, "");
+    columns.unused.push_back(source.table.columns()[k].name);
 }
 
 /// True for "X", "Y", "Z" (or "x-coordinate") in the cell of the first row.
@@ -162,7 +165,7 @@ PointColumns point_columns(const TextTable& table, const setup::Setup& setup, co
         else
             take({table, setup, facts}, k, *role, columns);
     }
-    for (const auto& [k, role] : unit_open) refuse_guess(table, k, role, columns);
+    for (const auto& [k, role] : unit_open) refuse_guess({table, setup, facts}, k, role, columns);
     check(table, columns);
     return columns;
 }
