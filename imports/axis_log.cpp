@@ -11,12 +11,34 @@
 namespace trunnion::imports {
 namespace {
 
+/// Of positions alone, an axis without any is not in the log.
+void drop_empty_axes(const TextTable& table, LogColumns& log) {
+    if (!log.places_only()) return;
+    std::erase_if(log.axes, [&](const AxisColumns& axis) {
+        const bool empty = axis.place() && !table.has_numbers(axis.place()->index);
+        if (empty) log.unused.push_back(table.columns()[axis.place()->index].name);
+        return empty;
+    });
+}
+
+/// False for a row without the position of an axis: that of the row before would be invented.
+bool has_places(const LineCells& line, LogColumns& log) {
+    bool all = true;
+    for (AxisColumns& axis : log.axes) {
+        if (!axis.place() || !is_missing(line.cells[axis.place()->index].text)) continue;
+        ++axis.missing;
+        all = false;
+    }
+    return all;
+}
+
 /// Writes a row for each axis with both positions in this line.
 void write_row(const LineCells& line, LogColumns& log, records::Reading row, RowWriter& rows) {
     const auto& [table, i, cells] = line;
     const std::string block =
         log.block ? std::string(cells[log.block->column].text) : std::string();
     const bool places_only = log.places_only();
+    if (places_only && !has_places(line, log)) return;
     for (AxisColumns& axis : log.axes)
         if (const auto q =
                 number_or_none(table, i, cells, places_only ? axis.place() : axis.commanded))
@@ -67,10 +89,12 @@ void tell(const TextTable& table, const LogColumns& log, const TimeColumn& time,
 void keep_logged_axes(const ImportRequest& request, const std::vector<TextTable>& tables,
                       RowWriter& rows) {
     std::vector<Axis> axes;
+    std::vector<std::string> notes;  // the caller tells them
     for (const TextTable& table : tables) {
-        const Facts facts = request.facts.with_head_of(table);
+        const Facts facts = request.facts.with_head_of(table, notes);
         const TimeColumn time(table, facts);
         LogColumns log = log_columns(table, request.setup, facts, time, true);
+        drop_empty_axes(table, log);
         if (!log.places_only() || facts.has("at")) return;
         for (AxisColumns& axis : log.axes)
             if (axis.place()) axes.push_back(axis.axis);
@@ -93,9 +117,10 @@ Imported import_axis_log(const ImportRequest& request) {
     check_unit(request.facts);
     keep_logged_axes(request, tables, rows);
     for (const TextTable& table : tables) {
-        const Facts facts = request.facts.with_head_of(table);
+        const Facts facts = request.facts.with_head_of(table, result.notes);
         const TimeColumn time(table, facts);
         LogColumns log = log_columns(table, request.setup, facts, time, true);
+        drop_empty_axes(table, log);
         records::Reading row;
         const auto number = &table - tables.data() + 1;
         row.test = facts.text(

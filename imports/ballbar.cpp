@@ -5,8 +5,11 @@
 #include <cmath>
 
 #include "base/alarm.h"
+#include "base/numbers.h"
 #include "base/units.h"
+#include "imports/column_roles.h"
 #include "imports/row_writer.h"
+#include "imports/side_columns.h"
 #include "imports/time_column.h"
 
 namespace trunnion::imports {
@@ -24,6 +27,7 @@ struct BarColumns {
     std::optional<NumberColumn> angle;
     NumberColumn value;
     bool radius = false;  ///< complete lengths instead of deviations
+    std::optional<std::size_t> lengths;
 };
 
 [[noreturn]] void ask(const TextTable& table, const std::string& what) {
@@ -42,11 +46,12 @@ Circle circle_of(const TextTable& table, const Facts& facts) {
     if (sense != "cw" && sense != "ccw" && sense != "CW" && sense != "CCW")
         ask(table, "which sense, cw or ccw? --with sense=ccw, or a line 'Direction: CCW'");
     circle.sense = sense == "ccw" || sense == "CCW" ? 1.0 : -1.0;
-    circle.feed_mm_min = facts.positive("feed");
-    circle.start_rad = rad_from_deg(facts.number("start_deg").value_or(0.0));
+    circle.feed_mm_min = facts.positive("feed", Quantity::speed, "mm/min");
+    circle.start_rad =
+        rad_from_deg(facts.number("start_deg", Quantity::angle, "deg").value_or(0.0));
     const double whole = rad_from_deg(360.0) * circle.sense;
-    circle.end_rad =
-        facts.has("end_deg") ? rad_from_deg(*facts.number("end_deg")) : circle.start_rad + whole;
+    const auto end = facts.number("end_deg", Quantity::angle, "deg");
+    circle.end_rad = end ? rad_from_deg(*end) : circle.start_rad + whole;
     return circle;
 }
 
@@ -62,9 +67,31 @@ BarColumns columns_of(const TextTable& table, const Facts& facts) {
         table.header_line().fail("no column of deviations (\"deviation\") or lengths (\"radius\")",
                                  1);
     columns.radius = !deviation;
+    columns.lengths = radius;
     columns.value = number_column(table, deviation ? *deviation : *radius, Quantity::length,
                                   facts.text("unit"));
     return columns;
+}
+
+/// A second circle in another column would be lost; conditions, and lengths beside deviations, are
+/// told in a note.
+void check_other_columns(const TextTable& table, const BarColumns& columns, const TimeColumn& time,
+                         std::vector<std::string>& notes) {
+    std::string unused;
+    for (std::size_t k = 0; k < table.columns().size(); ++k) {
+        const TextColumn& column = table.columns()[k];
+        const bool angle = columns.angle && columns.angle->index == k;
+        if (angle || k == columns.value.index || time.is_column(k)) continue;
+        const bool position = role_of(column.name).has_value();
+        const bool known = position || is_beside_values(column) || columns.lengths == k;
+        if (!known && table.has_numbers(k))
+            table.header_line().fail("'" + column.name +
+                                         "' is not understood: a table has the readings of one "
+                                         "circle; what --with columns= names 'skip' is left out",
+                                     column.column);
+        if (!column.name.empty()) unused += (unused.empty() ? "'" : ", '") + column.name + '\'';
+    }
+    if (!unused.empty()) notes.push_back(table.path() + ": not read: " + unused);
 }
 
 /// Angles of the rows, rad: given, or in equal steps from start to end in time.
@@ -147,6 +174,59 @@ class BarRows {
     AxisPositions at_;
 };
 
+/// A bar reads its length within its stroke: beyond it, it is another bar.
+constexpr double stroke_mm = 2.0;
+
+std::string other_length(const setup::Setup& setup, double length_mm) {
+    return fmt::format("[ballbar] length_mm of {} is {}: write length_mm = {} there for this bar",
+                       setup.path, shortest(setup.ballbar->length_mm), shortest(length_mm));
+}
+
+/// The circle of a bar of another length is no circle of this one: its squareness would be wrong by
+/// the ratio of the two.
+void check_radius(const TextTable& table, const Facts& facts, const setup::Setup& setup,
+                  std::vector<std::string>& notes) {
+    for (const char* key : {"radius", "diameter"}) {
+        const auto told = facts.positive(key, Quantity::length, "mm");
+        if (!told) continue;
+        const double radius_mm = key == std::string_view("radius") ? *told : 0.5 * *told;
+        const double off_mm = radius_mm - setup.ballbar->length_mm;
+        if (std::abs(off_mm) > stroke_mm)
+            facts.fail(key, fmt::format("the file's radius is {} mm, and {}", shortest(radius_mm),
+                                        other_length(setup, radius_mm)));
+        if (off_mm != 0.0)
+            notes.push_back(fmt::format("{}: radius {} mm; read with the bar's {} mm of the setup",
+                                        table.path(), shortest(radius_mm),
+                                        shortest(setup.ballbar->length_mm)));
+    }
+}
+
+/// Lengths of another bar, or lengths in a column of deviations.
+void check_lengths(const TextTable& table, const BarColumns& columns, const setup::Setup& setup) {
+    double sum_mm = 0.0;
+    std::size_t count = 0;
+    std::vector<records::TableCell> cells;
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        table.read(i, cells);
+        if (is_missing(cells[columns.value.index].text)) continue;
+        sum_mm += number_in(table, i, cells, columns.value);
+        ++count;
+    }
+    if (count == 0) throw InputError("no value in the table", {table.path(), 1, 1});
+    const TextColumn& column = table.columns()[columns.value.index];
+    const double mean_mm = sum_mm / static_cast<double>(count);
+    const double usual_mm = columns.radius ? setup.ballbar->length_mm : 0.0;
+    if (std::abs(mean_mm - usual_mm) <= stroke_mm) return;
+    const double length_mm = std::round(1e3 * mean_mm) / 1e3;
+    table.header_line().fail(
+        columns.radius ? fmt::format("the lengths are about {} mm, and {}", shortest(length_mm),
+                                     other_length(setup, length_mm))
+                       : fmt::format("the deviations are about {} mm, more than a bar reads: "
+                                     "lengths ('radius')? another unit?",
+                                     shortest(length_mm)),
+        column.column);
+}
+
 std::string circle_words(const Circle& circle, const std::vector<double>& angles) {
     static constexpr const char* planes[] = {"XY", "YZ", "ZX"};
     return fmt::format("{} {}, {:.0f} to {:.0f} deg{}", planes[circle.plane],
@@ -167,15 +247,18 @@ std::vector<double> times_of(const TextTable& table, const TimeColumn& time) {
 
 void import_circle(const ImportRequest& request, const TextTable& table, RowWriter& rows,
                    Imported& result) {
-    const Facts facts = request.facts.with_head_of(table);
+    const Facts facts = request.facts.with_head_of(table, result.notes);
     const setup::Setup& setup = request.setup;
     const setup::Artefact& pivot =
         artefact_for(setup, facts.text("feature"), setup::Artefact::Kind::center_pivot);
     const BarRows bar(setup, pivot, positions_told(setup, facts.text("at")));
+    check_radius(table, facts, setup, result.notes);
     const Circle circle = circle_of(table, facts);
     const BarColumns columns = columns_of(table, facts);
     const TimeColumn time(table, facts);
     time.note_unit(table, result.notes);
+    check_other_columns(table, columns, time, result.notes);
+    check_lengths(table, columns, setup);
     std::vector<double> times = times_of(table, time);
     std::vector<double> angles = angles_of(table, columns, circle, times);
     unwrap(table, circle, angles);
@@ -188,6 +271,7 @@ void import_circle(const ImportRequest& request, const TextTable& table, RowWrit
     row.feed_mm_min = circle.feed_mm_min.value_or(0.0);
     rows.begin_file(table, facts);
     if (time.dated()) rows.name_days();
+    if (time.invented() && !circle.feed_mm_min) rows.invent_times();
     std::vector<records::TableCell> cells;
     std::size_t missing = 0;
     for (std::size_t i = 0; i < table.size(); ++i) {

@@ -73,7 +73,7 @@ std::optional<std::size_t> find_first_column(const TextTable& table,
 
 std::optional<std::size_t> sigma_column(const TextTable& table) {
     return find_column(table, {"sigma", "u", "uncertainty", "unsicherheit", "sd", "std", "stdev",
-                               "stddev", "standarddeviation", "standardabweichung"});
+                               "stddev", "standarddeviation", "standardabweichung", "\xCF\x83"});
 }
 
 NumberColumn number_column(const TextTable& table, std::size_t index, Quantity quantity,

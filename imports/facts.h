@@ -7,8 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "base/alarm.h"
 #include "geometry/axes.h"
 #include "imports/text_table.h"
+#include "imports/units.h"
 #include "setup/setup.h"
 
 namespace trunnion::imports {
@@ -19,18 +21,35 @@ class Facts {
     /// `told`: "key=value" each. Throws InputError for a text without `=`, an unknown key, and a
     /// duplicate key.
     explicit Facts(const std::vector<std::string>& told);
-    /// These facts, completed by those of the head lines of a file.
-    Facts with_head_of(const TextTable& table) const;
+    /// These facts, completed by those of the head lines of a file. A note tells a line that
+    /// `--with` says otherwise; throws InputError where both name another axis.
+    Facts with_head_of(const TextTable& table, std::vector<std::string>& notes) const;
 
     bool has(const std::string& key) const { return facts_.contains(key); }
+    /// Throws InputError at the line that tells this fact.
+    [[noreturn]] void fail(const std::string& key, const std::string& message) const;
     bool is_told(const std::string& key) const { return told_.contains(key); }  ///< by `--with`
     std::string text(const std::string& key, const std::string& otherwise = "") const;
-    /// A number above 0; throws InputError for any other text.
-    std::optional<double> positive(const std::string& key) const;
-    std::optional<double> number(const std::string& key) const;
+    /// A number above 0; throws InputError for any other text. In mm, rad, s, mm/s if `key` is of
+    /// this quantity; `usual` is its unit where none is written.
+    std::optional<double> positive(const std::string& key, Quantity quantity,
+                                   const std::string& usual) const;
+    std::optional<double> number(const std::string& key, Quantity quantity,
+                                 const std::string& usual) const;
 
   private:
-    std::map<std::string, std::string> facts_;
+    struct Fact {
+        std::string text;
+        SourceRef where;  ///< the line that tells it
+        std::string line;
+        Dialect dialect;
+    };
+    static Fact told_by(const TextTable& table, const TextTable::HeadEntry& entry,
+                        const std::string& text);
+    void note_contradiction(const std::string& key, const Fact& fact,
+                            std::vector<std::string>& notes) const;
+
+    std::map<std::string, Fact> facts_;
     std::set<std::string> told_;
 };
 

@@ -6,6 +6,7 @@
 #include "base/alarm.h"
 #include "base/utf8_text.h"
 #include "imports/file_tables.h"
+#include "imports/plain_text.h"
 #include "records/table_line.h"
 
 namespace trunnion::imports {
@@ -42,11 +43,14 @@ Imported import_readings(ImportKind kind, const ImportRequest& request) {
                                              import_pointing};
     std::vector<ImportFile> files;
     for (const ImportFile& file : request.files)
-        files.push_back({file.path, utf8_of(file.text, file.path)});
+        files.push_back({file.path, plain_text(utf8_of(file.text, file.path))});
     Imported result = [&] {
         try {
             return functions[static_cast<std::size_t>(kind)](
-                {request.setup, files, request.facts, request.map});
+                {request.setup,
+                 files,
+                 request.facts,
+                 {request.map.path, plain_text(request.map.text)}});
         } catch (const InputError& error) {
             fail_with_line(error, files);
         }

@@ -62,6 +62,27 @@ int count_of(const std::vector<IsoPoint>& points, bool targets) {
     return static_cast<int>(distinct.size());
 }
 
+/// R and A need two readings of each target; missing ones leave them open.
+void note_repeats(const TextTable& table, const records::Iso230Figures& figures,
+                  const MovedAxis& moved, Imported& result) {
+    const auto& targets = figures.targets;
+    const auto any = [&](auto is) { return std::any_of(targets.begin(), targets.end(), is); };
+    if (!any([](const auto& t) { return t.n_up > 1 || t.n_down > 1; })) return;
+    const bool up = any([](const auto&t) { return t.n_up > 0; }),
+               down = any([](const auto&t) { return t.n_down > 0; });
+    for (const records::TargetFigures& t : targets) {
+        const bool few_up = up && t.n_up < 2, few_down = down && t.n_down < 2;
+        if (!few_up && !few_down) continue;
+        const double at = moved.rotary ? deg_from_rad(t.target) : t.target;
+        const int count = few_up ? t.n_up : t.n_down;
+        result.notes.push_back(
+            fmt::format("{}: R and A (-) need two readings of each target: {} {} has {} towards {}",
+                        table.path(), fmt::format("{:.6g}", at), moved.rotary ? "deg" : "mm",
+                        count == 0 ? "none" : "one", few_up ? '+' : '-'));
+        return;
+    }
+}
+
 void tell(const TextTable& table, const std::vector<IsoPoint>& points, const MovedAxis& moved,
           bool angular, Imported& result) {
     const bool both = std::any_of(points.begin(), points.end(),
@@ -74,6 +95,7 @@ void tell(const TextTable& table, const std::vector<IsoPoint>& points, const Mov
     for (const IsoPoint& p : points) list.push_back({p.target, p.direction, p.deviation});
     const records::Iso230Figures figures = records::iso230_2_figures(list);
     result.summary.push_back(records::iso230_2_words(figures, angular));
+    note_repeats(table, figures, moved, result);
 }
 
 MovedAxis axis_of(const TextTable& table, const setup::Setup& setup, const std::string& told) {
@@ -122,15 +144,17 @@ class IsoImport {
         : request_(request), rows_(request.setup, "iso230-2", {}, true, true) {}
 
     void take(const TextTable& table) {
-        const Facts facts = request_.facts.with_head_of(table);
+        const Facts facts = request_.facts.with_head_of(table, result.notes);
         const setup::Setup& setup = request_.setup;
         const IsoQuantities quantities = quantities_of(setup, facts);
         for (IsoSeries& series : read_iso_points(table, facts, quantities, result)) {
+            refuse_other_axis(table, facts, series.axis);
             const MovedAxis axis =
                 axis_of(table, setup, series.axis.empty() ? facts.text("axis") : series.axis);
+            const int run = run_of_heading(table, series);
             add_test(tests_,
                      {&table, facts, quantities, axis, what_was_read(setup, axis, facts),
-                      std::move(series)},
+                      std::move(series), run},
                      result.notes);
         }
     }
@@ -155,6 +179,17 @@ class IsoImport {
     Imported result;
 
   private:
+    /// A column of axes, and --with axis= of another one.
+    void refuse_other_axis(const TextTable& table, const Facts& facts,
+                           const std::string& name) const {
+        const setup::Setup& setup = request_.setup;
+        if (name.empty() || !facts.is_told("axis")) return;
+        if (axis_named(setup, name) != axis_named(setup, facts.text("axis")))
+            table.header_line().fail("the column of axes has '" + name + "', --with axis=" +
+                                         facts.text("axis") + ": omit --with axis=",
+                                     1);
+    }
+
     void write(const IsoTest& test) {
         const std::vector<IsoPoint>& points = test.series.points;
         rows_.begin_file(*test.table, test.facts);

@@ -148,12 +148,6 @@ Columns columns_named(const TextTable& table, const ValueName& wanted, const Col
     return found;
 }
 
-bool may_be_value(const TextColumn& column) {
-    return may_be_no_direction(column.name) ||
-           std::any_of(value_names().begin(), value_names().end(),
-                       [&](const ValueName& name) { return is_named(column, name); });
-}
-
 }  // namespace
 
 std::optional<std::size_t> target_column(const TextTable& table) {
@@ -167,10 +161,12 @@ std::optional<std::size_t> target_column(const TextTable& table) {
                 {"x", "y", "z", "a", "b", "c"}});
     if (named) return named;
     for (std::size_t k = 0; k < table.columns().size(); ++k)
-        if (has_role(table.columns()[k], Role::commanded) &&
-            source_of(table.columns()[k]) != Source::deviation)
-            return k;
+        if (has_role_of_target(table.columns()[k])) return k;
     return std::nullopt;
+}
+
+bool has_role_of_target(const TextColumn& column) {
+    return has_role(column, Role::commanded) && source_of(column) != Source::deviation;
 }
 
 std::optional<std::size_t> find_value_column(const TextTable& table, std::size_t target) {
@@ -201,6 +197,12 @@ void note_other_values(const TextTable& table, std::size_t target, std::size_t v
     if (!others.empty())
         notes.push_back(table.path() + ": '" + table.columns()[value].name +
                         "' taken as the value, not " + others);
+}
+
+bool may_be_value(const TextColumn& column) {
+    return may_be_no_direction(column.name) ||
+           std::any_of(value_names().begin(), value_names().end(),
+                       [&](const ValueName& name) { return is_named(column, name); });
 }
 
 bool may_be_no_direction(const std::string& name) {

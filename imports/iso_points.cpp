@@ -3,13 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
+#include <map>
 
 #include "base/alarm.h"
 #include "imports/iso_columns.h"
+#include "imports/iso_runs.h"
 #include "imports/iso_values.h"
+#include "imports/missing_values.h"
 #include "imports/pass_order.h"
 #include "imports/run_names.h"
+#include "imports/side_columns.h"
 #include "imports/time_column.h"
 #include "imports/told_direction.h"
 
@@ -17,6 +20,13 @@ namespace trunnion::imports {
 namespace {
 
 using Cells = std::vector<records::TableCell>;
+
+void note_rows(const TextTable& table, const std::vector<std::string>& names,
+               std::vector<std::string>& notes) {
+    if (!names.empty())
+        notes.push_back(
+            fmt::format("{}: rows of results, not read: {}", table.path(), quoted(names)));
+}
 
 std::string word_before(const std::string& name) {
     return name.substr(0, name.find_first_of("0123456789"));
@@ -37,114 +47,65 @@ void sort_pass(const IsoSource& source, std::vector<IsoPoint>& pass) {
     });
 }
 
-/// In measured order: run 1 up, run 1 down, run 2 up ...
-bool before(const RunName& a, const RunName& b) {
-    return std::pair(a.run, -a.direction) < std::pair(b.run, -b.direction);
-}
-
-/// Direction of a pass whose name is `name`. One told above the table must not contradict it; for a
-/// heading see take_directions().
-int way_of(const IsoSource& source, const std::string& name, int direction) {
-    if (source.heading_line == 0 && source.way != 0 && direction != 0 && direction != source.way)
-        source.table.header_line().fail("'" + name + "' contradicts the direction '" +
-                                            source.way_text + "' told for this table",
-                                        1);
-    return direction != 0 ? direction : source.way;
-}
-
-/// +1 or -1: most steps of the targets from row to row go there.
-int way_of_targets(const IsoSource& source) {
-    int steps = 0;
-    std::optional<double> last;
-    Cells cells;
-    for (std::size_t i = 0; i < source.table.size(); ++i) {
-        source.table.read(i, cells);
-        const auto target = source.table.find_number(cells[source.target].text);
-        if (target && last) steps += *target > *last ? 1 : *target < *last ? -1 : 0;
-        if (target) last = target;
-    }
-    return steps < 0 ? -1 : 1;
-}
-
-std::string by_order(int way) {
-    return std::string("towards ") + (way > 0 ? '+' : '-') + ", by the order of the targets";
-}
-
-/// Direction of runs whose names have none.
-int way_of_plain_runs(const IsoSource& source, std::vector<std::string>& notes) {
-    if (source.way != 0) return source.way;
-    if (!source.way_text.empty())
-        source.table.header_line().fail(
-            "the runs have no direction (\"1+\", \"1-\"), and '" + source.way_text +
-                "' above the table is not one of them: --with sense=forward or backward tells it",
-            1);
-    const int way = way_of_targets(source);
-    notes.push_back(source.table.path() + ": runs without a direction taken as " + by_order(way));
-    return way;
-}
-
-struct RunColumn {
-    std::size_t column = 0;
-    RunName name;
-};
-
-std::vector<RunColumn> run_columns(const IsoSource& source, std::vector<std::string>& notes) {
-    std::vector<RunColumn> runs, ways, plain;
-    const std::vector<TextColumn>& columns = source.table.columns();
-    for (std::size_t k = 0; k < columns.size(); ++k) {
-        if (k == source.target) continue;
-        const RunName name = run_name(columns[k].name);
-        if (name.run > 0 && name.direction != 0) runs.push_back({k, name});
-        if (name.run == 0 && name.direction != 0 && !name.other)
-            ways.push_back({k, {1, name.direction, false}});
-        if (name.run > 0 && name.direction == 0 && !name.other)
-            plain.push_back({k, {name.run, 0, false}});
-    }
-    // A lone "r" beside a column of values is no pass.
-    if (ways.size() == 1 && may_be_no_direction(columns[ways[0].column].name) &&
-        find_value_column(source.table, source.target))
-        ways.clear();
-    if (runs.empty()) runs = ways;
-    if (runs.empty() && !plain.empty()) {
-        runs = plain;
-        const int way = way_of_plain_runs(source, notes);
-        for (RunColumn& run : runs) run.name.direction = way;
-    }
-    for (const RunColumn& run : runs) way_of(source, columns[run.column].name, run.name.direction);
-    std::stable_sort(runs.begin(), runs.end(),
-                     [](const auto& a, const auto& b) { return before(a.name, b.name); });
-    return runs;
-}
-
-/// "Mean" or "2 s" below the targets: results, not targets.
-bool is_result_row(const IsoSource& source, const Cells& cells) {
-    const std::string_view text = cells[source.target].text;
-    return !text.empty() && !source.table.find_number(text) &&
-           std::isalpha(static_cast<unsigned char>(text.front())) != 0;
-}
-
 /// Columns next to the targets, one for each run and direction.
-std::vector<IsoPoint> matrix_points(const IsoSource& source, const std::vector<RunColumn>& runs) {
-    std::vector<IsoPoint> points;
+std::vector<IsoPoint> matrix_points(const IsoSource& source, const std::vector<RunColumn>& runs,
+                                    std::vector<std::string>& notes) {
+    const TextTable& table = source.table;
+    ResultRows results(source, runs);
+    std::vector<std::size_t> rows;
     Cells cells;
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        table.read(i, cells);
+        if (!results.skips(i, cells)) rows.push_back(i);
+    }
+    std::vector<IsoPoint> points;
+    MissingValues missing;
     for (const RunColumn& run : runs) {
         const double factor = value_factor(source, run.column);
         std::vector<IsoPoint> pass;
-        for (std::size_t i = 0; i < source.table.size(); ++i) {
-            source.table.read(i, cells);
-            if (is_missing(cells[run.column].text) || is_result_row(source, cells)) continue;
-            pass.push_back({number_in(source.table, i, cells, {source.target, source.factor}),
-                            number_in(source.table, i, cells, {run.column, factor}), 0.0,
-                            run.name.run, run.name.direction, i, 0});
+        for (const std::size_t i : rows) {
+            table.read(i, cells);
+            const double target = number_in(table, i, cells, {source.target, source.factor});
+            if (is_missing(cells[run.column].text))
+                missing.add(table.line(i).number, table.columns()[run.column].name);
+            else
+                pass.push_back({target, number_in(table, i, cells, {run.column, factor}), 0.0,
+                                run.name.run, run.name.direction, i, 0});
         }
         sort_pass(source, pass);
         points.insert(points.end(), pass.begin(), pass.end());
     }
+    missing.note(table.path(), notes);
+    note_rows(table, results.names(), notes);
     step_times(source.facts, points);
     return points;
 }
 
-std::vector<IsoPoint> across_points(const IsoSource& source) {
+/// The run and the direction of a row of values; `other` for a row of results. Without numbers the
+/// second row of a direction is the second run.
+RunName row_name(const IsoSource& source, std::size_t i, const records::TableCell& cell,
+                 std::map<int, int>& unnumbered) {
+    const std::string text = cell.plain();
+    RunName name = run_name(text);
+    const bool bare = name.run == 0 && name.direction == 0;
+    if ((name.other || bare) && is_result_row_name(text)) {
+        name.other = true;
+        return name;
+    }
+    if (name.other)
+        source.table.line(i).fail(
+            std::string("run and direction expected here ('1+', 'Run 2 "
+                        "down'), or a row of results (mean, 2s). Directions: ") +
+                accepted_directions,
+            1);
+    if (name.run == 0 && name.direction != 0) name.run = ++unnumbered[name.direction];
+    name.direction = way_of(source, text, name.direction);
+    if (name.run == 0 || name.direction == 0)
+        source.table.line(i).fail("run and direction expected here: '1+', 'Run 2 down'", 1);
+    return name;
+}
+
+std::vector<IsoPoint> across_points(const IsoSource& source, std::vector<std::string>& notes) {
     const auto& [table, facts, quantities, target, factor, way, way_text, heading] = source;
     const std::string& told = table.columns()[0].unit;
     const auto unit = find_unit(told.empty() ? usual_unit(quantities.target) : told);
@@ -152,27 +113,37 @@ std::vector<IsoPoint> across_points(const IsoSource& source) {
     if (!value_unit || value_unit->quantity != quantities.value)
         table.header_line().fail("the unit of the deviations is not told: --with unit=um", 1);
     std::vector<std::pair<RunName, std::vector<IsoPoint>>> passes;
+    std::vector<std::string> results;
+    std::map<int, int> unnumbered;
+    MissingValues missing;
     Cells cells;
     for (std::size_t i = 0; i < table.size(); ++i) {
         table.read(i, cells);
-        RunName name = run_name(cells[0].plain());
-        name.direction = way_of(source, cells[0].plain(), name.direction);
-        if (name.run == 0 || name.direction == 0) {
-            if (name.other) continue;  // "mean up"
-            table.line(i).fail("run and direction expected here: '1+', 'Run 2 down'", 1);
+        const RunName name = row_name(source, i, cells[0], unnumbered);
+        if (name.other) {
+            results.push_back(cells[0].plain());
+            continue;
         }
         std::vector<IsoPoint> pass;
-        for (std::size_t k = 1; k < cells.size(); ++k)
-            if (!is_missing(cells[k].text))
+        for (std::size_t k = 1; k < cells.size(); ++k) {
+            if (is_missing(cells[k].text))
+                missing.add(table.line(i).number, table.columns()[k].name);
+            else
                 pass.push_back({table.find_number(table.columns()[k].name).value_or(0.0) *
                                     (unit ? unit->factor : 1.0),
                                 number_in(table, i, cells, {k, value_unit->factor}), 0.0, name.run,
                                 name.direction, i, 0});
+        }
         sort_pass(source, pass);
+        for (const auto& [other, points] : passes)
+            if (other.run == name.run && other.direction == name.direction)
+                table.line(i).fail("this run in this direction stands above already", 1);
         passes.emplace_back(name, std::move(pass));
     }
     std::stable_sort(passes.begin(), passes.end(),
                      [](const auto& a, const auto& b) { return before(a.first, b.first); });
+    missing.note(table.path(), notes);
+    note_rows(table, results, notes);
     std::vector<IsoPoint> points;
     for (const auto& [name, pass] : passes) points.insert(points.end(), pass.begin(), pass.end());
     refuse_numbers_of_targets(source, points, unit ? unit->factor : 1.0, value_unit->factor);
@@ -199,6 +170,27 @@ ListColumns list_columns(const IsoSource& source, std::vector<std::string>& note
     columns.direction = find_column(table, {"direction", "dir", "richtung", "sense", "approach"});
     columns.axis = find_column(table, {"axis", "achse", "axisname"});
     return columns;
+}
+
+/// What of a list is used.
+struct UsedColumns {
+    std::size_t target;
+    const ListColumns& columns;
+    const TimeColumn& time;
+
+    bool has(std::size_t k) const {
+        return k == target || k == columns.value.index || columns.run == k ||
+               columns.direction == k || columns.axis == k || time.is_column(k);
+    }
+};
+
+void note_unused(const TextTable& table, const UsedColumns& used, std::vector<std::string>& notes) {
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < table.columns().size(); ++k)
+        if (const TextColumn& column = table.columns()[k]; !used.has(k) && !may_be_value(column))
+            names.push_back(column.name);
+    if (!names.empty())
+        notes.push_back(fmt::format("{}: not read: {}", table.path(), quoted(names)));
 }
 
 IsoPoint list_point(const IsoSource& source, const ListColumns& columns, std::size_t i,
@@ -232,13 +224,14 @@ std::vector<IsoSeries> listed_series(const IsoSource& source, Imported& result) 
     const TextTable& table = source.table;
     const ListColumns columns = list_columns(source, result.notes);
     const TimeColumn time(table, source.facts);
+    note_unused(table, {source.target, columns, time}, result.notes);
     std::vector<IsoSeries> series;
     Cells cells;
-    std::size_t missing = 0;
+    MissingValues missing;
     for (std::size_t i = 0; i < table.size(); ++i) {
         table.read(i, cells);
         if (is_missing(cells[columns.value.index].text)) {
-            ++missing;
+            missing.add(table.line(i).number, "");
             continue;
         }
         IsoPoint point = list_point(source, columns, i, cells);
@@ -251,9 +244,7 @@ std::vector<IsoSeries> listed_series(const IsoSource& source, Imported& result) 
     }
     if (!time.invented()) result.notes.push_back(table.path() + ": " + time.words());
     time.note_unit(table, result.notes);
-    if (missing > 0)
-        result.notes.push_back(fmt::format("{}: {} line{} without a value", table.path(), missing,
-                                           missing > 1 ? "s" : ""));
+    missing.note(table.path(), result.notes);
     return series;
 }
 
@@ -318,16 +309,35 @@ void take_way(IsoSource& source) {
     source.heading_line = line.number;
 }
 
+/// A word among units: "in;foo;foo" below the names of the columns was taken for names.
+[[noreturn]] void refuse_without_targets(const TextTable& table) {
+    const std::vector<TextColumn>& columns = table.columns();
+    const auto is_unit = [](const TextColumn& c) { return find_unit(c.name).has_value(); };
+    const auto other = std::find_if_not(columns.begin(), columns.end(), is_unit);
+    if (std::any_of(columns.begin(), columns.end(), is_unit) && other != columns.end())
+        table.header_line().fail("'" + other->name +
+                                     "' is no unit, but stands in a row of units (mm, um, nm, in, "
+                                     "uin, deg, arcsec, urad ..)",
+                                 other->column);
+    table.header_line().fail(
+        "no column of targets (\"target\", \"position\", \"soll\"); --with columns= names them in "
+        "their order",
+        1);
+}
+
 }  // namespace
 
 bool targets_across(const TextTable& table) {
-    const auto number = [&](const TextColumn& c) { return table.find_number(c.name); };
+    // "+1;-1" are runs.
+    const auto number = [&](const TextColumn& c) {
+        return !c.name.starts_with('+') && table.find_number(c.name);
+    };
     return table.columns().size() > 3 &&
            std::all_of(table.columns().begin() + 1, table.columns().end(), number);
 }
 
 void step_times(const Facts& facts, std::vector<IsoPoint>& points) {
-    const double step_s = facts.positive("step_s").value_or(60.0);
+    const double step_s = facts.positive("step_s", Quantity::time, "s").value_or(60.0);
     for (std::size_t k = 0; k < points.size(); ++k)
         points[k].time_s = step_s * static_cast<double>(k);
 }
@@ -338,14 +348,10 @@ std::vector<IsoSeries> read_iso_points(const TextTable& table, const Facts& fact
     IsoSource source{table, facts, quantities, 0, 1.0, 0, "", 0};
     take_way(source);
     if (targets_across(table)) {
-        list.push_back({"", across_points(source), false, false});
+        list.push_back({"", across_points(source, result.notes), false, false});
     } else {
         const auto target = target_column(table);
-        if (!target)
-            table.header_line().fail(
-                "no column of targets (\"target\", \"position\", \"soll\"); --with columns= names "
-                "them in their order",
-                1);
+        if (!target) refuse_without_targets(table);
         source.target = *target;
         source.factor =
             number_column(table, *target, quantities.target, usual_unit(quantities.target)).factor;
@@ -354,7 +360,7 @@ std::vector<IsoSeries> read_iso_points(const TextTable& table, const Facts& fact
         if (runs.empty())
             list = listed_series(source, result);
         else
-            list.push_back({"", matrix_points(source, runs), false, false});
+            list.push_back({"", matrix_points(source, runs, result.notes), false, false});
     }
     for (IsoSeries& series : list) finish(source, series, result);
     return list;

@@ -12,7 +12,7 @@
 #include "imports/iso_columns.h"
 #include "imports/iso_points.h"
 #include "imports/run_names.h"
-#include "imports/units.h"
+#include "imports/side_columns.h"
 
 namespace trunnion::imports {
 namespace {
@@ -25,6 +25,7 @@ struct Judged {
     bool single_list = false;  ///< one value a line, without cycles and directions
     bool summed_up = false;    ///< such a list beside means or deviations: "Resolver AVG"
     bool own_sensor = false;   ///< its headings name a sensor of the axis itself
+    bool tells_axis = false;   ///< it is read whatever the others are
     bool left_out = false;     ///< for one of these reasons
 };
 
@@ -33,31 +34,6 @@ bool is_run(const TextColumn& column) {
     const RunName name = run_name(column.name);
     return !name.other && (name.run > 0 || name.direction != 0) &&
            !may_be_no_direction(column.name);
-}
-
-/// Only results: "X_avg", "B", "2s".
-bool is_result(const TextColumn& column) {
-    static const std::set<std::string> whole{"b", "r", "m", "e", "a", "s", "2s", "4s", "sd", "n"};
-    static const std::set<std::string> words{"mean",   "avg", "average",    "std", "stdev",
-                                             "sigma",  "rms", "mittelwert", "max", "min",
-                                             "mittel", "s",   "range"};
-    if (whole.contains(plain_name(column.name))) return true;
-    const std::vector<std::string> list = words_of(column.name);
-    return std::any_of(list.begin(), list.end(),
-                       [&](const std::string& word) { return words.contains(word); });
-}
-
-/// A temperature or a time at a target.
-bool is_condition(const TextColumn& column) {
-    static const std::set<std::string> words{"temperature", "temp",       "pressure", "humidity",
-                                             "time",        "temperatur", "zeit",     "date",
-                                             "load",        "speed"};
-    const auto unit = find_unit(column.unit);
-    if (unit && unit->quantity != Quantity::length && unit->quantity != Quantity::angle)
-        return true;
-    const std::vector<std::string> list = words_of(column.name);
-    return std::any_of(list.begin(), list.end(),
-                       [&](const std::string& word) { return words.contains(word); });
 }
 
 bool only_conditions(const TextTable& table, std::size_t target) {
@@ -117,7 +93,8 @@ Judged judged(const TextTable& table) {
         const bool only_results =
             results > 0 || any_column(table, is_result) || only_conditions(table, *target);
         Judged one{&table, value || !only_results, true, results};
-        if (!value || tells_axis(table)) return one;
+        one.tells_axis = tells_axis(table);
+        if (!value) return one;
         one.single_list = is_single_list(table);
         one.summed_up = one.single_list && any_column(table, is_result);
         one.own_sensor = names_own_sensor(table);
@@ -149,7 +126,8 @@ void leave_out_others(std::vector<Judged>& list, int least) {
         const bool others = std::any_of(list.begin(), list.end(), [&](const Judged& one) {
             return is_taken(one) && !(one.*differs);
         });
-        for (Judged& one : list) one.left_out |= others && is_taken(one) && one.*differs;
+        for (Judged& one : list)
+            one.left_out |= others && is_taken(one) && one.*differs && !one.tells_axis;
     }
 }
 

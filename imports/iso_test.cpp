@@ -9,6 +9,9 @@
 #include <tuple>
 #include <utility>
 
+#include "imports/headings.h"
+#include "imports/run_names.h"
+
 namespace trunnion::imports {
 namespace {
 
@@ -33,12 +36,31 @@ bool same_targets(const IsoTest& a, const IsoTest& b) {
            std::includes(two.begin(), two.end(), one.begin(), one.end());
 }
 
+bool one_axis(const IsoTest& a, const IsoTest& b) {
+    const auto same = [&](const char* fact) { return a.facts.text(fact) == b.facts.text(fact); };
+    return a.axis.axis == b.axis.axis && a.what.test == b.what.test &&
+           a.series.timed == b.series.timed && same("session") && same("test") && same("at") &&
+           same("feature") && same_targets(a, b);
+}
+
 bool complement(const IsoTest& a, const IsoTest& b) {
     const int way = only_way(a.series.points);
-    const auto same = [&](const char* fact) { return a.facts.text(fact) == b.facts.text(fact); };
-    return way != 0 && way == -only_way(b.series.points) && a.axis.axis == b.axis.axis &&
-           a.what.test == b.what.test && a.series.timed == b.series.timed && same("session") &&
-           same("test") && same("at") && same("feature") && same_targets(a, b);
+    return way != 0 && way == -only_way(b.series.points) && one_axis(a, b);
+}
+
+std::set<std::pair<int, int>> passes_of(const std::vector<IsoPoint>& points) {
+    std::set<std::pair<int, int>> passes;
+    for (const IsoPoint& p : points) passes.insert({p.run, p.direction});
+    return passes;
+}
+
+/// A pass that the earlier test does not have, by the headings: "Run 1 up", "Run 2 up".
+bool further_run(const IsoTest& a, const IsoTest& b) {
+    if (a.run == 0 || b.run == 0 || a.table->path() != b.table->path() || !one_axis(a, b))
+        return false;
+    const auto known = passes_of(a.series.points), passes = passes_of(b.series.points);
+    return std::none_of(passes.begin(), passes.end(),
+                        [&](const auto& pass) { return known.contains(pass); });
 }
 
 /// In the order of their times or, without any: run 1 up, run 1 down, run 2 up ...
@@ -58,9 +80,19 @@ void join(IsoTest& one, const IsoTest& other) {
 
 }  // namespace
 
+int run_of_heading(const TextTable& table, IsoSeries& series) {
+    if (table.headings().empty() || series.points.empty()) return 0;
+    const RunName name = run_name(heading_words(table.headings().front().text));
+    const bool one_pass = passes_of(series.points).size() == 1;
+    if (name.run == 0 || name.other || !one_pass) return 0;
+    for (IsoPoint& point : series.points) point.run = name.run;
+    return name.run;
+}
+
 void add_test(std::vector<IsoTest>& tests, IsoTest test, std::vector<std::string>& notes) {
-    const auto other = std::find_if(tests.rbegin(), tests.rend(),
-                                    [&](const IsoTest& t) { return complement(t, test); });
+    const auto other = std::find_if(tests.rbegin(), tests.rend(), [&](const IsoTest& t) {
+        return complement(t, test) || further_run(t, test);
+    });
     const bool one_file = other != tests.rend() && other->table->path() == test.table->path();
     if (other != tests.rend() && !one_file)
         notes.push_back(
@@ -73,10 +105,10 @@ void add_test(std::vector<IsoTest>& tests, IsoTest test, std::vector<std::string
         return;
     }
     notes.push_back(
-        fmt::format("{}: {}: the tables of lines {} and {} are the two directions of "
-                    "one test, with one zero",
+        fmt::format("{}: {}: the tables of lines {} and {} are {} of one test, with one zero",
                     test.table->path(), test.axis.name, other->table->header_line().number,
-                    test.table->header_line().number));
+                    test.table->header_line().number,
+                    complement(*other, test) ? "the two directions" : "runs"));
     join(*other, test);
 }
 

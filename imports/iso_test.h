@@ -30,10 +30,13 @@ struct IsoTest {
     MovedAxis axis;
     WhatWasRead what;
     IsoSeries series;
+    int run = 0;  ///< told by the heading of its table: "Run 2 reverse"
 };
+/// The run that the heading tells, of a table of one pass; 0: none. Its points get this run.
+int run_of_heading(const TextTable& table, IsoSeries& series);
 
 /// Adds a test. If an earlier table of the same file holds the same targets of the same axis in the
-/// other direction, both are one test with one zero, with a note.
+/// other direction, or in another run by its heading, both are one test with one zero, with a note.
 void add_test(std::vector<IsoTest>& tests, IsoTest test, std::vector<std::string>& notes);
 
 /// True when `test` has only readings of `earlier`, but for rounding: a report may list them again

@@ -1,5 +1,7 @@
 #include "imports/point_columns.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <set>
 
@@ -55,12 +57,15 @@ void take(const PointTable& source, std::size_t k, const ColumnRole& role, Point
 }
 
 /// The unit of a deviation is never guessed. Beside nominal and measured it is not needed.
-void refuse_guess(const TextTable& table, std::size_t k, const ColumnRole& role,
+void refuse_guess(const PointTable& source, std::size_t k, const ColumnRole& role,
                   PointColumns& columns) {
     const auto d = component_of(role.axis);
-    const bool both = d && columns.measured[*d] && (columns.nominal[*d] || !columns.axes.empty());
-    if (d && !both) number_column(table, k, Quantity::length, "");
-    columns.unused.push_back(table.columns()[k].name);
+    // Rotary axes alone do not tell where the target should be.
+    const bool placed = std::any_of(columns.axes.begin(), columns.axes.end(),
+                                    [&](const auto& a) { return !turns(source.setup, a.first); });
+    const bool both = d && columns.measured[*d] && (columns.nominal[*d] || placed);
+    if (d && !both) number_column(source.table, k, Quantity::length, "");
+    columns.unused.push_back(source.table.columns()[k].name);
 }
 
 /// True for "X", "Y", "Z" (or "x-coordinate") in the cell of the first row.
@@ -160,13 +165,13 @@ PointColumns point_columns(const TextTable& table, const setup::Setup& setup, co
         else
             take({table, setup, facts}, k, *role, columns);
     }
-    for (const auto& [k, role] : unit_open) refuse_guess(table, k, role, columns);
+    for (const auto& [k, role] : unit_open) refuse_guess({table, setup, facts}, k, role, columns);
     check(table, columns);
     return columns;
 }
 
 std::vector<MeasuredPoint> measured_points(const TextTable& table, const PointColumns& columns,
-                                           std::size_t& left_out) {
+                                           LeftOut& left_out) {
     std::vector<MeasuredPoint> points;
     Cells cells;
     std::string name;
@@ -176,8 +181,9 @@ std::vector<MeasuredPoint> measured_points(const TextTable& table, const PointCo
             MeasuredPoint point{i, {}, {}, {}};
             for (std::size_t d = 0; d < 3; ++d) {
                 fill({table, i, cells}, columns, {d, d}, point);
-                const bool wanted = columns.measured[d] || columns.error[d];
-                left_out += wanted && !point.measured[d] ? 1 : 0;
+                const auto& column = columns.measured[d] ? columns.measured[d] : columns.error[d];
+                if (column && !point.measured[d])
+                    left_out.values.add(table.line(i).number, table.columns()[column->index].name);
             }
             points.push_back(point);
             continue;
@@ -185,15 +191,37 @@ std::vector<MeasuredPoint> measured_points(const TextTable& table, const PointCo
         const records::TableCell& cell = cells[*columns.coordinate];
         const auto role = role_of(cell.plain());
         const auto d = role ? component_of(role->axis) : std::nullopt;
-        if (!d) continue;  // a diameter or a distance, not a coordinate
+        if (!d) {
+            left_out.names.push_back(cell.plain());
+            continue;
+        }
         const std::string own = columns.name ? cells[*columns.name].plain() : "";
         if (points.empty() || own != name || points.back().measured[*d])
             points.push_back({i, {}, {}, {}});
         name = own;
         fill({table, i, cells}, columns, {0, *d}, points.back());
-        left_out += points.back().measured[*d] ? 0 : 1;
+        if (!points.back().measured[*d]) left_out.values.add(table.line(i).number, cell.plain());
     }
     return points;
+}
+
+void LeftOut::note(const std::string& path, std::vector<std::string>& notes) const {
+    values.note(path, notes);
+    const std::set<std::string> distinct(names.begin(), names.end());
+    if (!distinct.empty())
+        notes.push_back(fmt::format("{}: {} line{} of no coordinate not read: '{}'", path,
+                                    names.size(), names.size() > 1 ? "s" : "",
+                                    fmt::join(distinct, "', '")));
+}
+
+bool lacks_nominal(const PointColumns& columns, const MeasuredPoint& point) {
+    for (std::size_t d = 0; d < 3; ++d) {
+        const std::size_t k = columns.coordinate ? 0 : d;
+        const bool told = columns.nominal[k] || (columns.measured[k] && columns.error[k]);
+        const bool wanted = !columns.coordinate || point.measured[d];
+        if (told && wanted && !point.nominal[d]) return true;
+    }
+    return false;
 }
 
 }  // namespace trunnion::imports

@@ -9,6 +9,7 @@
 
 #include "imports/columns.h"
 #include "imports/facts.h"
+#include "imports/missing_values.h"
 #include "imports/time_column.h"
 
 namespace trunnion::imports {
@@ -35,8 +36,18 @@ struct MeasuredPoint {
     std::array<std::optional<double>, 3> nominal, measured;
     std::array<std::size_t, 3> rows{};  ///< of each coordinate
 };
-/// In table order. `left_out` counts coordinates without a value.
+/// What is not read of a table.
+struct LeftOut {
+    MissingValues values;
+    std::vector<std::string> names;  ///< in place of a coordinate: a diameter, a distance
+
+    void note(const std::string& path, std::vector<std::string>& notes) const;
+};
+/// In table order.
 std::vector<MeasuredPoint> measured_points(const TextTable& table, const PointColumns& columns,
-                                           std::size_t& left_out);
+                                           LeftOut& left_out);
+/// True where the nominal point is not known: a coordinate that the table has for the others is
+/// missing.
+bool lacks_nominal(const PointColumns& columns, const MeasuredPoint& point);
 
 }  // namespace trunnion::imports

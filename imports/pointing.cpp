@@ -123,7 +123,7 @@ std::optional<NumberColumn> sigma_of(const TextTable& table, const Facts& facts,
 void import_sights(const TextTable& table, const ImportRequest& request, RowWriter& rows,
                    Imported& result) {
     const setup::Setup& setup = request.setup;
-    const Facts facts = request.facts.with_head_of(table);
+    const Facts facts = request.facts.with_head_of(table, result.notes);
     const TimeColumn time(table, facts);
     LogColumns log = log_columns(table, setup, facts, time);
     const auto sigma = sigma_of(table, facts, log);

@@ -96,15 +96,18 @@ bool has_slides(const setup::Setup& setup) {
                        [&](Axis axis) { return names.has(axis) && !names.is_rotary(axis); });
 }
 
+/// The positions of linear axes are in the file.
+bool has_linear(const PointFile& file) {
+    return std::any_of(file.columns.axes.begin(), file.columns.axes.end(),
+                       [&](const auto& column) { return !turns(file.setup, column.first); });
+}
+
 AxisPositions positions_of(const PointFile& file, const MeasuredPoint& point,
                            const std::vector<records::TableCell>& cells, AxisPositions at) {
-    bool linear = false;
-    for (const auto& [axis, column] : file.columns.axes) {
+    for (const auto& [axis, column] : file.columns.axes)
         at[axis] = number_in(file.table, point.row, cells, column);
-        linear |= !turns(file.setup, axis);
-    }
     const auto told = [](const auto& value) { return value.has_value(); };
-    if (linear || !has_slides(file.setup) ||
+    if (has_linear(file) || !has_slides(file.setup) ||
         std::none_of(point.nominal.begin(), point.nominal.end(), told))
         return at;
     const auto reached = file.target->reach(at, point.nominal);
@@ -158,7 +161,7 @@ void check_poses(const setup::Setup& setup, const PointCounts& counts) {
 }
 
 void tell(const PointFile& file, const TimeColumn& time, const std::string& instrument,
-          std::size_t left_out, Imported& result) {
+          const LeftOut& left_out, Imported& result) {
     const TextTable& table = file.table;
     const PointColumns& columns = file.columns;
     const bool nominal = std::any_of(columns.nominal.begin(), columns.nominal.end(),
@@ -171,9 +174,7 @@ void tell(const PointFile& file, const TimeColumn& time, const std::string& inst
     if (time.invented())
         result.notes.push_back(table.path() +
                                ": no column of times: points are taken as one minute apart");
-    if (left_out > 0)
-        result.notes.push_back(
-            fmt::format("{}: {} coordinates without a value are left out", table.path(), left_out));
+    left_out.note(table.path(), result.notes);
     for (const std::string& name : columns.unused)
         result.notes.push_back(table.path() + ": column '" + name + "' is not used");
 }
@@ -222,7 +223,7 @@ void import_table_of_points(const TextTable& table, const ImportRequest& request
                             const PointOutput& out) {
     const auto& [rows, counts, result] = out;
     const setup::Setup& setup = request.setup;
-    const Facts facts = request.facts.with_head_of(table);
+    const Facts facts = request.facts.with_head_of(table, result.notes);
     const TimeColumn time(table, facts);
     const PointColumns columns = point_columns(table, setup, facts, time);
     const setup::Instrument* instrument = instrument_of(setup, facts.text("instrument"));
@@ -237,7 +238,7 @@ void import_table_of_points(const TextTable& table, const ImportRequest& request
     if (time.invented()) rows.invent_times();
     rows.declare("chain");
     rows.declare(instrument ? "instrument " + instrument->name : "instrument");
-    std::size_t left_out = 0;
+    LeftOut left_out;
     PointFile file{table, columns, nullptr, setup, measured_points(table, columns, left_out)};
     std::vector<records::TableCell> cells;
     for (const MeasuredPoint& point : file.points) {
@@ -246,6 +247,10 @@ void import_table_of_points(const TextTable& table, const ImportRequest& request
         const std::string feature = columns.feature ? cells[*columns.feature].plain() : "";
         file.target = &targets.named(feature, row, rows);
         const int before = rows.count();
+        if (!has_linear(file) && lacks_nominal(columns, point)) {
+            left_out.values.add(table.line(point.row).number, "nominal");
+            continue;
+        }
         write_point(file, point, cells, row, rows);
         if (rows.count() > before)
             count_point(table, point.row, {row.instrument, rows.session()}, counts);

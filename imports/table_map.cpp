@@ -7,6 +7,7 @@
 #include "base/numbers.h"
 #include "base/toml_reader.h"
 #include "base/units.h"
+#include "imports/missing_values.h"
 #include "imports/row_writer.h"
 #include "imports/time_column.h"
 #include "records/reading_columns.h"
@@ -21,7 +22,8 @@ struct MappedColumn {
     std::string constant;
     std::optional<NumberColumn> column, minus;
     std::optional<std::size_t> text_column, time_column;
-    double factor = 1.0;  ///< from the column to the unit of the readings column
+    double factor = 1.0;    ///< from the column to the unit of the readings column
+    bool optional = false;  ///< a condition: a cell may be empty
 };
 
 using Sources = std::vector<MappedColumn>;
@@ -92,6 +94,7 @@ class MapReader {
         result.name = key;
         if (const records::ReadingColumn* column = records::find_reading_column(key)) {
             result.store = column->store;
+            result.optional = column->optional && !key.starts_with("value_");
         } else if (const auto axis = names_.find_column(key)) {
             result.store = records::axis_store(*axis, names_.is_rotary(*axis));
         } else if (AxisNames().find_column(key)) {
@@ -174,6 +177,16 @@ class LineReader {
     void fill(const Sources& sources, records::Reading& reading) const {
         for (const MappedColumn& source : sources) fill(source, reading);
     }
+    /// False where a value of a column is missing: empty, "-", "n.a.".
+    bool has_all(const Sources& sources) const {
+        return std::all_of(sources.begin(), sources.end(), [&](const MappedColumn& source) {
+            const auto missing = [&](const std::optional<NumberColumn>& column) {
+                return column && is_missing(cells_[column->index].text);
+            };
+            return source.time_column || source.optional ||
+                   !(missing(source.column) || missing(source.minus));
+        });
+    }
     double time_s() const { return time_.time_s(table_, row_, cells_); }
 
   private:
@@ -186,7 +199,10 @@ class LineReader {
             cell = cells_[*source.text_column];
         } else if (source.column) {
             cell.column = cells_[source.column->index].column;
-            if (!cells_[source.column->index].text.empty()) text = shortest(value(source));
+            const auto& minus = source.minus ? source.minus : source.column;
+            const bool missing = is_missing(cells_[source.column->index].text) ||
+                                 is_missing(cells_[minus->index].text);
+            if (!missing) text = shortest(value(source));
             cell.text = text;
         }
         source.store(reading, line, cell);
@@ -223,6 +239,62 @@ std::optional<std::size_t> time_column_of(const Map& map) {
 
 }  // namespace
 
+namespace {
+
+/// Rows of the lines of a table. A reading whose value is missing is left out; a line of which none
+/// is left gives a row without a device, because its axes moved there.
+class MappedRows {
+  public:
+    MappedRows(const Map& map, const TextTable& table, const records::Reading& first)
+        : map_(map), table_(table), first_(first) {}
+
+    void add(std::size_t i, const LineReader& line, RowWriter& rows) {
+        const int number = table_.line(i).number;
+        if (!line.has_all(map_.common)) {
+            for (const Sources& sources : map_.readings) missing(number, sources);
+            return;
+        }
+        records::Reading common = first_;
+        line.fill(map_.common, common);
+        common.time_s = line.time_s();
+        bool moved = false;
+        for (const Sources& sources : map_.readings) {
+            if (!line.has_all(sources)) {
+                missing(number, sources);
+                continue;
+            }
+            records::Reading row = common;
+            line.fill(sources, row);
+            rows.add(std::move(row), number);
+            ++count_;
+            moved = true;
+        }
+        if (moved) return;
+        common.device = records::Device::none;
+        rows.add(std::move(common), number);
+    }
+
+    std::size_t count() const { return count_; }
+    void note(std::vector<std::string>& notes) const { missing_.note(table_.path(), notes); }
+
+  private:
+    void missing(int line, const Sources& sources) {
+        const auto value = std::find_if(sources.begin(), sources.end(), [](const auto& source) {
+            return source.column && source.name.starts_with("value_");
+        });
+        missing_.add(line, value == sources.end() ? std::string()
+                                                  : table_.columns()[value->column->index].name);
+    }
+
+    const Map& map_;
+    const TextTable& table_;
+    records::Reading first_;
+    MissingValues missing_;
+    std::size_t count_ = 0;
+};
+
+}  // namespace
+
 Imported import_table(const ImportRequest& request) {
     if (request.map.path.empty())
         throw InputError("import table requires --map MAP.toml, which assigns the columns");
@@ -230,7 +302,7 @@ Imported import_table(const ImportRequest& request) {
     Imported result;
     std::optional<RowWriter> rows;
     for (const TextTable& table : tables_of(request, result.notes)) {
-        const Facts facts = request.facts.with_head_of(table);
+        const Facts facts = request.facts.with_head_of(table, result.notes);
         const Map map = MapReader(map_file, table, request.setup).read();
         if (!rows) rows.emplace(request.setup, "table", map.columns, true, true);
         const TimeColumn time(table, facts, time_column_of(map));
@@ -238,22 +310,19 @@ Imported import_table(const ImportRequest& request) {
         LineReader line(table, time);
         rows->begin_file(table, facts);
         if (time.dated()) rows->name_days();
+        if (time.invented()) rows->invent_times();
+        records::Reading first;
+        first.commanded = positions_told(request.setup, facts.text("at"));
+        first.test = facts.text("test", "table");
+        MappedRows mapped(map, table, first);
         for (std::size_t i = 0; i < table.size(); ++i) {
             line.next(i);
-            records::Reading common;
-            common.commanded = positions_told(request.setup, facts.text("at"));
-            common.test = facts.text("test", "table");
-            line.fill(map.common, common);
-            common.time_s = line.time_s();
-            for (const Sources& sources : map.readings) {
-                records::Reading row = common;
-                line.fill(sources, row);
-                rows->add(std::move(row), table.line(i).number);
-            }
+            mapped.add(i, line, *rows);
         }
-        result.summary.push_back(fmt::format("{}: {} lines, {} readings each, {}; {}", table.path(),
-                                             table.size(), map.readings.size(), time.words(),
+        result.summary.push_back(fmt::format("{}: {} lines, {} readings, {}; {}", table.path(),
+                                             table.size(), mapped.count(), time.words(),
                                              table.dialect_words()));
+        mapped.note(result.notes);
     }
     for (std::string& note : map_file.unknown_keys()) result.notes.push_back(std::move(note));
     result.readings = rows->take();

@@ -7,7 +7,9 @@
 
 #include "base/alarm.h"
 #include "base/numbers.h"
+#include "imports/column_names.h"
 #include "imports/export_head.h"
+#include "imports/head_value.h"
 #include "imports/headings.h"
 #include "imports/told_direction.h"
 #include "imports/units.h"
@@ -39,9 +41,9 @@ bool is_rule(std::string_view text, const Dialect& dialect) {
     return dialect.separator == '|' && text.find_first_not_of("-|:+= \t") == std::string_view::npos;
 }
 
-/// "[3]" is an index, not a unit.
-bool is_index(std::string_view text) {
-    return text.find_first_not_of("0123456789") == std::string_view::npos;
+bool is_blank_row(std::string_view text, const Dialect& dialect) {
+    const char set[] = {dialect.separator, ' ', '\t', '"', '\0'};
+    return text.find_first_not_of(set) == std::string_view::npos;
 }
 
 std::string unit_in(const records::TableCell& cell) {
@@ -74,45 +76,7 @@ bool row_like(const Cells& cells, const Dialect& dialect) {
     return cells.size() > 2 || is_data({cells.front()}, dialect) || first.empty();
 }
 
-/// Length of the path before every name: "Try/" of "Try/t", "Try/pos". It tells nothing.
-std::size_t shared_path(const Cells& names) {
-    const std::string first = names.front().plain();
-    const std::size_t length = first.rfind('/') + 1;  // 0 without one
-    const bool shared = std::all_of(names.begin(), names.end(), [&](const auto& cell) {
-        const std::string name = cell.plain();
-        return name.size() > length && name.starts_with(first.substr(0, length)) &&
-               !find_unit(name.substr(length));
-    });
-    return shared && names.size() > 1 ? length : 0;
-}
-
 }  // namespace
-
-TextColumn column_named(const std::string& name, int column) {
-    std::string text = name;
-    for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}}) {
-        for (std::size_t at = 0; (at = text.find(open, at)) != std::string::npos; ++at) {
-            const std::size_t end = text.find(close, at);
-            if (end == std::string::npos) break;
-            const std::string unit(records::without_blanks(text.substr(at + 1, end - at - 1)));
-            if (!find_unit(unit) && (open == '(' || is_index(unit))) continue;  // a remark
-            text.erase(at, end - at + 1);
-            return {std::string(records::without_blanks(text)), unit, column};
-        }
-    }
-    const std::size_t cut = text.find_last_of("_/ ,");
-    if (cut != std::string::npos && cut > 0) {
-        const std::string unit(records::without_blanks(text.substr(cut + 1)));
-        // "x_m" may be an axis name; "time_s", "err um" and "angle / deg" contain units.
-        if (find_unit(unit) && !is_index(unit.substr(0, 1))) {
-            std::string left(records::without_blanks(text.substr(0, cut)));
-            while (left.ends_with('/') || left.ends_with('_') || left.ends_with(','))
-                left.pop_back();
-            return {std::string(records::without_blanks(left)), unit, column};
-        }
-    }
-    return {text, "", column};
-}
 
 TextTable::TextTable(const std::vector<Line>& lines, std::size_t begin, std::string path,
                      Dialect dialect, const std::string& told)
@@ -126,9 +90,9 @@ TextTable::TextTable(const std::vector<Line>& lines, std::size_t begin, std::str
     read_head(lines, begin, at);
     headings_ = headings_above(lines, begin, at);
     if (at == lines.size()) return;
-    if (told.empty()) read_header(lines, at);
+    const std::size_t behind = told.empty() ? read_header(lines, begin, at) : at;
     if (exported) columns_.front().name = "time";
-    take_rows(lines, exported ? exported->first_row : told.empty() ? at + 1 : at);
+    take_rows(lines, exported ? exported->first_row : behind);
     if (exported && exported->units)
         take_units(cells(lines[*exported->units]));
     else if (told.empty() && !rows_.empty() && is_units(rows_.front()))
@@ -206,7 +170,9 @@ std::size_t TextTable::widest(const std::vector<Line>& lines) const {
     throw InputError("no table: no line of numbers in the first 200", {path_, 1, 1});
 }
 
-void TextTable::read_header(const std::vector<Line>& lines, std::size_t at) {
+/// Returns the first line behind the names.
+std::size_t TextTable::read_header(const std::vector<Line>& lines, std::size_t begin,
+                                   std::size_t at) {
     header_ = lines[at];
     const std::size_t width = at + 1 < lines.size() ? cells(lines[at + 1]).size() : 0;
     const Cells names = header_cells(header_, width);
@@ -215,9 +181,12 @@ void TextTable::read_header(const std::vector<Line>& lines, std::size_t at) {
             "numbers where the names of the columns are expected (--with columns=\"time [s], X cmd "
             "[mm], X act [mm]\" tells them)",
             1);
-    const std::size_t path = shared_path(names);
-    for (const records::TableCell& cell : names)
-        columns_.push_back(column_named(cell.plain().substr(path), cell.column));
+    columns_ = columns_named(names);
+    const Line* above = at > begin ? &lines[at - 1] : nullptr;
+    const Line* below = at + 1 < lines.size() ? &lines[at + 1] : nullptr;
+    if (above && join_names(cells(*above), names, columns_)) header_ = *above;
+    const bool joined = below && join_names(names, cells(*below), columns_);
+    return at + (joined ? 2 : 1);
 }
 
 /// A number or a time where a column has a unit or is that of times: no line of a head, such as
@@ -278,6 +247,7 @@ void TextTable::take_rows(const std::vector<Line>& lines, std::size_t begin) {
         const Line& line = lines[i];
         if (line.text[0] == '#') continue;  // between rows; before the next table part of its head
         if (is_rule(line.text, dialect_)) continue;
+        if (is_blank_row(line.text, dialect_)) continue;  // ";;;" of a spreadsheet
         if (!begins_with_number(line.text) && !(i == begin && is_units(line))) {
             const Cells row = cells(line);
             const bool says = line.text.find_first_of(":=") != std::string_view::npos;
@@ -316,12 +286,9 @@ void TextTable::read_head(const std::vector<Line>& lines, std::size_t begin, std
         const std::string cuts = std::string(":=;\t") + (dialect_.separator == ',' ? "," : "");
         const std::size_t cut = text.find_first_of(cuts);
         if (cut == std::string_view::npos) continue;
-        std::string_view value = text.substr(cut);
-        value.remove_prefix(std::min(value.find_first_not_of(cuts + " \""), value.size()));
-        value = value.substr(0, value.find_first_of(cuts.substr(2) + "\""));
         std::string key = lower(records::without_blanks(text.substr(0, cut)));
         std::erase(key, '"');
-        head_[key] = {std::string(records::without_blanks(value)), lines[i]};
+        head_[key] = {head_value(text.substr(cut), cuts), lines[i]};
     }
     const auto way = head_.find(heading_direction);
     if (way != head_.end() && end < lines.size() &&
@@ -371,6 +338,15 @@ double TextTable::number(std::size_t i, const records::TableCell& cell,
     line(i).fail(std::string(what) + ": '" + std::string(cell.text) + "' is not a finite number" +
                      (dialect_.decimal_comma ? " with a decimal comma, as the others here" : ""),
                  cell.column);
+}
+
+bool TextTable::has_numbers(std::size_t column) const {
+    Cells row;
+    for (std::size_t i = 0; i < size(); ++i) {
+        read(i, row);
+        if (find_number(row[column].text)) return true;
+    }
+    return false;
 }
 
 void TextTable::fail(std::size_t i, std::size_t column, const std::string& message) const {

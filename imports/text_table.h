@@ -8,16 +8,9 @@
 #include <vector>
 
 #include "imports/cells.h"
+#include "imports/column_names.h"
 
 namespace trunnion::imports {
-
-/// One column of the header line: "Pos X [mm]" has the name "Pos X" and the unit "mm".
-struct TextColumn {
-    std::string name, unit;  ///< unit: as written, empty if the file gives none
-    int column = 1;          ///< position of the name, from 1
-};
-/// Splits "Pos X [mm]", "Pos X (mm)", "pos_x / mm".
-TextColumn column_named(const std::string& text, int column);
 
 /// Rows are split on demand: a log of a million rows remains a text.
 class TextTable {
@@ -49,6 +42,7 @@ class TextTable {
     void inherit(const Head& above, const std::vector<Line>& lines);
     /// True if a line between the table before and this one says it.
     bool says_itself(const std::string& key) const;
+    const Dialect& dialect() const { return dialect_; }
     /// "; between the columns, decimal comma"
     std::string dialect_words() const;
 
@@ -68,6 +62,7 @@ class TextTable {
     std::optional<double> find_number(std::string_view text) const {
         return dialect_.find_number(text);
     }
+    bool has_numbers(std::size_t column) const;
     [[noreturn]] void fail(std::size_t i, std::size_t column, const std::string& message) const;
 
   private:
@@ -84,7 +79,7 @@ class TextTable {
                                const std::string& told);
     bool leads_to_header(const std::vector<Line>& lines, std::size_t at) const;
     bool row_follows(const std::vector<Line>& lines, std::size_t at) const;
-    void read_header(const std::vector<Line>& lines, std::size_t at);
+    std::size_t read_header(const std::vector<Line>& lines, std::size_t begin, std::size_t at);
     void read_head(const std::vector<Line>& lines, std::size_t begin, std::size_t end);
     void take_rows(const std::vector<Line>& lines, std::size_t begin);
     void take_units(const std::vector<records::TableCell>& names);

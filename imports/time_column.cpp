@@ -57,7 +57,7 @@ void TimeColumn::find(const TextTable& table, const Facts& facts,
         clock = find_column(table, {"ut", "hour", "hours", "timeofday", "utchours", "uthours"});
     column_ = column ? column : clock ? clock : date;
     if (!column && clock) date_ = date;
-    if (const auto step = facts.positive("step_s")) step_s_ = *step;
+    if (const auto step = facts.positive("step_s", Quantity::time, "s")) step_s_ = *step;
 }
 
 /// Seconds, or a unit that is told, or that the numbers cannot do without.

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
 #include <map>
 #include <string>
+#include <utility>
 
 #include "base/numbers.h"
 #include "base/units.h"
@@ -25,6 +27,9 @@ std::string plain(std::string_view name) {
         } else if (two == "\xC2\xB2" || name[k] == '\xB2') {
             out += '2';
             k += two == "\xC2\xB2";
+        } else if (name.substr(k, 3) == "\xE2\x80\xB2") {
+            out += '\'';
+            k += 2;
         } else if (name.substr(k, 3) == "\xE2\x80\xB3") {
             out += '"';
             k += 2;
@@ -39,59 +44,98 @@ std::string plain(std::string_view name) {
     return out;
 }
 
+constexpr double deg_rad = pi / 180.0, minute_s = 60.0;
+
+constexpr std::pair<const char*, Unit> unit_names[] = {
+    {"mm", {Quantity::length, 1.0}},
+    {"um", {Quantity::length, 1e-3}},
+    {"micron", {Quantity::length, 1e-3}},
+    {"microns", {Quantity::length, 1e-3}},
+    {"nm", {Quantity::length, 1e-6}},
+    {"cm", {Quantity::length, 10.0}},
+    {"m", {Quantity::length, 1e3}},
+    {"in", {Quantity::length, 25.4}},
+    {"inch", {Quantity::length, 25.4}},
+    {"inches", {Quantity::length, 25.4}},
+    {"zoll", {Quantity::length, 25.4}},
+    {"mil", {Quantity::length, 0.0254}},
+    {"mils", {Quantity::length, 0.0254}},
+    {"thou", {Quantity::length, 0.0254}},
+    {"uin", {Quantity::length, 25.4e-6}},
+    {"uinch", {Quantity::length, 25.4e-6}},
+    {"uinches", {Quantity::length, 25.4e-6}},
+    {"microin", {Quantity::length, 25.4e-6}},
+    {"microinch", {Quantity::length, 25.4e-6}},
+    {"microinches", {Quantity::length, 25.4e-6}},
+    {"micrometer", {Quantity::length, 1e-3}},
+    {"micrometers", {Quantity::length, 1e-3}},
+    {"micrometre", {Quantity::length, 1e-3}},
+    {"micrometres", {Quantity::length, 1e-3}},
+    {"mikrometer", {Quantity::length, 1e-3}},
+    {"millimeter", {Quantity::length, 1.0}},
+    {"millimeters", {Quantity::length, 1.0}},
+    {"millimetre", {Quantity::length, 1.0}},
+    {"millimetres", {Quantity::length, 1.0}},
+    {"deg", {Quantity::angle, deg_rad}},
+    {"degree", {Quantity::angle, deg_rad}},
+    {"degrees", {Quantity::angle, deg_rad}},
+    {"grad", {Quantity::angle, deg_rad}},
+    {"turn", {Quantity::angle, 360.0 * deg_rad}},
+    {"rev", {Quantity::angle, 360.0 * deg_rad}},
+    {"mdeg", {Quantity::angle, 1e-3 * deg_rad}},
+    {"rad", {Quantity::angle, 1.0}},
+    {"mrad", {Quantity::angle, 1e-3}},
+    {"urad", {Quantity::angle, 1e-6}},
+    {"arcsec", {Quantity::angle, deg_rad / 3600.0}},
+    {"arcsecs", {Quantity::angle, deg_rad / 3600.0}},
+    {"arcsecond", {Quantity::angle, deg_rad / 3600.0}},
+    {"arcseconds", {Quantity::angle, deg_rad / 3600.0}},
+    {"bogensekunde", {Quantity::angle, deg_rad / 3600.0}},
+    {"bogensekunden", {Quantity::angle, deg_rad / 3600.0}},
+    {"winkelsekunde", {Quantity::angle, deg_rad / 3600.0}},
+    {"winkelsekunden", {Quantity::angle, deg_rad / 3600.0}},
+    {"arc-sec", {Quantity::angle, deg_rad / 3600.0}},
+    {"asec", {Quantity::angle, deg_rad / 3600.0}},
+    {"\'\'", {Quantity::angle, deg_rad / 3600.0}},
+    {"mas", {Quantity::angle, deg_rad / 3.6e6}},
+    {"arcmin", {Quantity::angle, deg_rad / 60.0}},
+    {"bogenminuten", {Quantity::angle, deg_rad / 60.0}},
+    {"winkelminuten", {Quantity::angle, deg_rad / 60.0}},
+    {"\'", {Quantity::angle, deg_rad / 60.0}},
+    {"\"", {Quantity::angle, deg_rad / 3600.0}},
+    {"s", {Quantity::time, 1.0}},
+    {"sec", {Quantity::time, 1.0}},
+    {"ms", {Quantity::time, 1e-3}},
+    {"us", {Quantity::time, 1e-6}},
+    {"ns", {Quantity::time, 1e-9}},
+    {"min", {Quantity::time, minute_s}},
+    {"h", {Quantity::time, 3600.0}},
+    {"mm/s", {Quantity::speed, 1.0}},
+    {"mm/min", {Quantity::speed, 1.0 / minute_s}},
+    {"mm/sec", {Quantity::speed, 1.0}},
+    {"mmpm", {Quantity::speed, 1.0 / minute_s}},
+    {"m/min", {Quantity::speed, 1e3 / minute_s}},
+    {"in/min", {Quantity::speed, 25.4 / minute_s}},
+    {"inch/min", {Quantity::speed, 25.4 / minute_s}},
+    {"inches/min", {Quantity::speed, 25.4 / minute_s}},
+    {"ipm", {Quantity::speed, 25.4 / minute_s}},
+    {"in/s", {Quantity::speed, 25.4}},
+    {"ips", {Quantity::speed, 25.4}},
+    {"m/s", {Quantity::speed, 1e3}},
+    {"deg/s", {Quantity::turning, deg_rad}},
+    {"rad/s", {Quantity::turning, 1.0}},
+    {"deg/min", {Quantity::turning, deg_rad / minute_s}},
+    {"mm/s2", {Quantity::per_s2, 1.0}},
+    {"mm/s^2", {Quantity::per_s2, 1.0}},
+    {"m/s2", {Quantity::per_s2, 1e3}},
+    {"m/s^2", {Quantity::per_s2, 1e3}},
+    {"degc", {Quantity::temperature, 1.0}},
+    {"c", {Quantity::temperature, 1.0}},
+};
+
 const std::map<std::string, Unit, std::less<>>& units() {
-    using Q = Quantity;
-    constexpr double deg = pi / 180.0, minute = 60.0;
-    static const std::map<std::string, Unit, std::less<>> table{
-        {"mm", {Q::length, 1.0}},
-        {"um", {Q::length, 1e-3}},
-        {"micron", {Q::length, 1e-3}},
-        {"microns", {Q::length, 1e-3}},
-        {"nm", {Q::length, 1e-6}},
-        {"cm", {Q::length, 10.0}},
-        {"m", {Q::length, 1e3}},
-        {"in", {Q::length, 25.4}},
-        {"inch", {Q::length, 25.4}},
-        {"mil", {Q::length, 0.0254}},
-        {"deg", {Q::angle, deg}},
-        {"degree", {Q::angle, deg}},
-        {"degrees", {Q::angle, deg}},
-        {"grad", {Q::angle, deg}},
-        {"turn", {Q::angle, 360.0 * deg}},
-        {"rev", {Q::angle, 360.0 * deg}},
-        {"mdeg", {Q::angle, 1e-3 * deg}},
-        {"rad", {Q::angle, 1.0}},
-        {"mrad", {Q::angle, 1e-3}},
-        {"urad", {Q::angle, 1e-6}},
-        {"arcsec", {Q::angle, deg / 3600.0}},
-        {"arcseconds", {Q::angle, deg / 3600.0}},
-        {"arc-sec", {Q::angle, deg / 3600.0}},
-        {"asec", {Q::angle, deg / 3600.0}},
-        {"\'\'", {Q::angle, deg / 3600.0}},
-        {"mas", {Q::angle, deg / 3.6e6}},
-        {"arcmin", {Q::angle, deg / 60.0}},
-        {"\"", {Q::angle, deg / 3600.0}},
-        {"s", {Q::time, 1.0}},
-        {"sec", {Q::time, 1.0}},
-        {"ms", {Q::time, 1e-3}},
-        {"us", {Q::time, 1e-6}},
-        {"ns", {Q::time, 1e-9}},
-        {"min", {Q::time, minute}},
-        {"h", {Q::time, 3600.0}},
-        {"mm/s", {Q::speed, 1.0}},
-        {"mm/min", {Q::speed, 1.0 / minute}},
-        {"m/min", {Q::speed, 1e3 / minute}},
-        {"m/s", {Q::speed, 1e3}},
-        {"deg/s", {Q::turning, deg}},
-        {"rad/s", {Q::turning, 1.0}},
-        {"deg/min", {Q::turning, deg / minute}},
-        {"mm/s2", {Q::per_s2, 1.0}},
-        {"mm/s^2", {Q::per_s2, 1.0}},
-        {"m/s2", {Q::per_s2, 1e3}},
-        {"m/s^2", {Q::per_s2, 1e3}},
-        {"degc", {Q::temperature, 1.0}},
-        {"c", {Q::temperature, 1.0}},
-    };
+    static const std::map<std::string, Unit, std::less<>> table(std::begin(unit_names),
+                                                                std::end(unit_names));
     return table;
 }
 
