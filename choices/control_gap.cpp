@@ -37,6 +37,7 @@ constexpr double all_rows = 0.95;      ///< part of the rows that an explanation
 constexpr std::size_t least_late = 3;  ///< blocks with wrong rows, where numbers are late
 constexpr double surely_more = 1e-9;   ///< p of a mean that no noise has
 constexpr double contradicts = 0.9;    ///< of the loss: most that stays without the numbers
+constexpr double much_less = 0.5;      ///< of the loss that causes leave, by another reading
 constexpr double other_start = 1.2;    ///< of the loss: most with a start that may be right
 
 /// `whole`: the causes bring (almost) all rows with a gap down to noise, and spoil none.
@@ -269,6 +270,27 @@ void try_whole(const Asked& asked, LogOfProgram log, Answer& answer) {
     try_reading(asked, std::move(log), answer);
 }
 
+/// A large gap hides that a log begins within the program. Then its rows were compared with moves
+/// that it does not contain, and so is what the search made of them.
+void try_begun_within(const Asked& asked, const LogOfProgram& log, Answer& answer) {
+    if (!is_left(answer.gap) || log.view.begins_within) return;
+    LogOfProgram other = begun_within(log);
+    Answer second = judged(asked, other);
+    if (!lacks_begin(other, asked.comparer(other).run(second.reached))) return;
+    const double own = answer.gap.after_rms_um, here = second.gap.after_rms_um;
+    if (!is_left(second.gap) || here * here < much_less * own * own) answer = std::move(second);
+}
+
+/// Rows that are set aside are no part of the answer, and no agreement.
+void tell_foreign(std::size_t blocks, ControlGap& gap) {
+    if (blocks == 0 || is_left(gap)) return;
+    gap.verdict =
+        gap.verdict == GapVerdict::no_gap ? GapVerdict::unexplained : GapVerdict::partly_explained;
+    add_unknown(gap, blocks);
+    gap.causes.back().what = "the log has blocks that the program lacks";
+    gap.causes.back().share = 0.0;
+}
+
 }  // namespace
 
 ControlGap control_gap(const GapQuestion& question, interpreter::ProgramSource& programs,
@@ -292,6 +314,8 @@ ControlGap control_gap(const GapQuestion& question, interpreter::ProgramSource& 
     try_other_start(asked, log, answer);
     try_without_numbers(asked, log, answer);
     try_whole(asked, log, answer);
+    try_begun_within(asked, log, answer);
+    tell_foreign(log.foreign.size(), answer.gap);
     return std::move(answer.gap);
 }
 
