@@ -1,18 +1,22 @@
 #include "choices/gap_causes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <utility>
 
 #include "choices/folds.h"
+#include "choices/gap_notes.h"
 #include "choices/row_fit.h"
 
 namespace trunnion::choices {
 
 namespace {
 
+using offsets::ControlPosition;
+
 constexpr std::size_t enough_blocks = 2;      ///< for the numbers of a store, beside foreign blocks
-constexpr double only_one_block = 2.0 / 3.0;  ///< most that a single block can prove
+constexpr double only_one_block = 2.0 / 3.0;  ///< most that a single block or event can prove
 constexpr double still_helps = 0.01;  ///< of what a cause removes: it does so without another one
 
 /// The control with all steps but some.
@@ -28,6 +32,49 @@ setup::Setup without(const setup::Setup& setup, const GapSearch& found,
 double removed(const std::vector<double>& before, const std::vector<double>& after) {
     const double sum = sum_of(before);
     return sum > 0.0 ? 1.0 - sum_of(after) / sum : 0.0;
+}
+
+/// A row's difference, or its part across the segment on which the row slides, is that of `shift`.
+bool is_shifted(const LogView& view, const Pair& pair, const ControlPosition& shift, double most) {
+    double square = 0.0, along = 0.0, apart = 0.0;
+    for (const Axis axis : view.axes) {
+        const double own = pair.apart[axis], off = own - shift[axis];
+        square += own * own;
+        along += own * shift[axis];
+        apart += off * off;
+    }
+    if (!pair.slides) return apart <= most * most;
+    return std::abs(along - square) <= most * std::sqrt(std::max(square, most * most));
+}
+
+/// In a log that is a part of its program: without the cause all rows from one on, or up to one,
+/// have the same difference. Any single event does that, however many blocks follow.
+bool is_one_event(const Judged& by, const ComparedRun& rest, const ComparedRun& found) {
+    const LogView& view = by.comparer.log();
+    const bool ends = !view.whole && ends_before(found);
+    if (by.row_limit == infinite_loss || (!ends && !view.begins_within)) return false;
+    std::size_t first = view.rows.size(), last = 0;
+    const Pair* farthest = nullptr;
+    for (const Pair& pair : rest.pairs) {
+        if (!is_changed(rest.losses[pair.row], found.losses[pair.row])) continue;
+        first = std::min(first, pair.row);
+        last = std::max(last, pair.row);
+        const auto square = [&](const Pair& of) {
+            double sum = 0.0;
+            for (const Axis axis : view.axes) sum += of.apart[axis] * of.apart[axis];
+            return sum;
+        };
+        if (farthest == nullptr || square(pair) > square(*farthest)) farthest = &pair;
+    }
+    if (farthest == nullptr) return false;
+    if (!(ends && view.begins_within)) {
+        if (ends) last = view.rows.size() - 1;
+        if (view.begins_within) first = 0;
+    }
+    return std::all_of(rest.pairs.begin(), rest.pairs.end(), [&](const Pair& pair) {
+        const double most = std::sqrt(by.row_limit) / view.rows[pair.row].weight;
+        return pair.row < first || pair.row > last || is_shifted(view, pair, farthest->apart, most);
+    });
 }
 
 }  // namespace
@@ -75,6 +122,8 @@ GapCause cause_of(const GapQuestion& question, const GapSearch& found, std::size
     for (std::size_t row = 0; row < before.size(); ++row)
         if (after[row] > by.row_limit) before[row] = left_out[row] = 0.0;
     if (by.row_limit < infinite_loss) cap_probability(out, removed(before, left_out));
+    if (is_one_event(by, rest, found.run))
+        out.probability = std::min(out.probability, only_one_block);
     if (step.only_passes_stop) {
         // All that the log shows of it is that the other control did not stop.
         out.probability = std::min(out.probability, only_one_block);

@@ -102,4 +102,35 @@ TEST_CASE("an edited block and a stale length without numbers: the value is righ
         }
 }
 
+TEST_CASE("an empty length that a part of the log does not tell from its offset is a rival") {
+    records::PositionLog log = log_bench::log_of(mill(121.21), program);
+    log.rows.resize(16);
+    log.rows.erase(log.rows.begin(), log.rows.begin() + 4);
+    const auto gap = gap_of(mill(0.0), log, program);
+    REQUIRE_FALSE(gap.causes.empty());
+    for (const choices::GapCause& cause : gap.causes) {
+        if (!cause.known) continue;
+        CAPTURE(cause.name);
+        const auto& rivals = cause.rivals;
+        const bool has_length =
+            cause.name == "H1" || std::find(rivals.begin(), rivals.end(), "H1") != rivals.end();
+        CHECK((has_length || cause.probability < 0.5));
+        CHECK(cause.probability < 0.7);
+    }
+}
+
+TEST_CASE("one shift up to the end of a log that is cut off is one event, of many blocks or not") {
+    records::PositionLog log = log_bench::log_of(mill(80.4), program);
+    const auto whole = gap_of(mill(80.0), log, program);
+    REQUIRE_FALSE(whole.causes.empty());
+    CHECK(whole.causes[0].name == "H1");
+    CHECK(whole.causes[0].probability > 0.8);
+    log.rows.resize(16);
+    const auto cut = gap_of(mill(80.0), log, program);
+    REQUIRE_FALSE(cut.causes.empty());
+    CHECK(cut.causes[0].name == "H1");
+    CHECK(cut.causes[0].probability < 0.7);
+    CHECK(cut.causes[0].probability > 0.5);
+}
+
 }  // namespace trunnion
