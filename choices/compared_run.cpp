@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "choices/row_losses.h"
+
 namespace trunnion::choices {
 
 ComparedRun Comparer::compared(ControlPath path) const {

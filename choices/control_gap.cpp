@@ -11,6 +11,7 @@
 #include "choices/block_texts.h"
 #include "choices/far_blocks.h"
 #include "choices/folds.h"
+#include "choices/gap_causes.h"
 #include "choices/gap_notes.h"
 #include "choices/gap_search.h"
 #include "choices/gap_teller.h"
@@ -27,115 +28,17 @@ namespace {
 
 constexpr double gap_sigmas = 6.0;  ///< of a row: a gap begins there
 constexpr double explained_from = 0.8;
-constexpr std::size_t enough_blocks = 2;  ///< for the numbers of a store, beside foreign blocks
-constexpr double least_left = 0.005;      ///< of the gap: minimum for a block listed as remaining
-constexpr double only_one_block = 2.0 / 3.0;  ///< most that a single block can prove
-constexpr double claimed = 0.5;               ///< least probability of a claim
+constexpr double least_left = 0.005;  ///< of the gap: minimum for a block listed as remaining
+constexpr double claimed = 0.5;       ///< least probability of a claim
 constexpr double chance =
     1e-6;  ///< p of a small excess over the noise that is searched all the same
 constexpr double quite_sure = 0.8;     ///< probability of a cause of such an excess
 constexpr double all_rows = 0.95;      ///< part of the rows that an explanation reaches
-constexpr double still_helps = 0.01;   ///< of what a cause removes: it does so without another one
 constexpr std::size_t least_late = 3;  ///< blocks with wrong rows, where numbers are late
-constexpr double infinite_loss = std::numeric_limits<double>::infinity();
-constexpr double surely_more = 1e-9;  ///< p of a mean that no noise has
-constexpr double contradicts = 0.9;   ///< of the loss: most that stays without the numbers
-constexpr double other_start = 1.2;   ///< of the loss: most with a start that may be right
-
-/// The control with all steps but some.
-setup::Setup without(const setup::Setup& setup, const GapSearch& found,
-                     const std::set<std::size_t>& left_out) {
-    setup::Setup out = setup;
-    for (std::size_t k = 0; k < found.steps.size(); ++k)
-        if (!left_out.contains(k)) found.steps[k].chosen.take(out);
-    return out;
-}
-
-struct Judged {
-    const Comparer& comparer;
-    const Teller& teller;
-    const std::vector<int>& blocks;
-    double excess;     ///< of the loss, over noise
-    double row_limit;  ///< loss of a row that noise may have
-};
-
-/// Part of a loss that is removed.
-double removed(const std::vector<double>& before, const std::vector<double>& after) {
-    const double sum = sum_of(before);
-    return sum > 0.0 ? 1.0 - sum_of(after) / sum : 0.0;
-}
-
-/// Limits the probability by the number of blocks that depend on the cause, and by a part that is
-/// explained.
-void cap_probability(GapCause& cause, double explained) {
-    const double blocks = static_cast<double>(cause.blocks);
-    cause.probability =
-        std::min({cause.probability, (blocks + 1.0) / (blocks + 2.0), std::max(0.0, explained)});
-}
-
-GapCause cause_of(const GapQuestion& question, const GapSearch& found, std::size_t k,
-                  const Judged& by) {
-    const GapStep& step = found.steps[k];
-    const ComparedRun rest = by.comparer.run(without(question.setup, found, {k}));
-    GapCause out{step.chosen.name,
-                 step.chosen.what,
-                 step.chosen.numbers,
-                 step.probability,
-                 step.rivals,
-                 0.0,
-                 0,
-                 {},
-                 {},
-                 {}};
-    if (by.excess > 0.0) out.share = std::clamp((rest.loss - found.run.loss) / by.excess, 0.0, 1.0);
-    const auto changed = [&](std::size_t row) {
-        return is_changed(rest.losses[row], found.run.losses[row]);
-    };
-    out.blocks = changed_blocks(rest.losses, found.run.losses, by.blocks).size();
-    out.first = by.teller.first(rest, changed);
-    out.worst = by.teller.worst(rest, changed);
-    out.heldout = by.teller.shrink(rest.losses, found.left_out);
-    // An exact cause leaves nothing in most of what it touches.
-    // Foreign blocks beside it are none of its rows. A store in a single block must explain more
-    // than they are, because its numbers fit one of them, too.
-    std::vector<double> before = rest.losses, after = found.run.losses, left_out = found.left_out;
-    const double all = reached(before, after, by.row_limit);
-    for (std::size_t row = 0; row < before.size(); ++row)
-        if (!changed(row)) before[row] = after[row] = left_out[row] = 0.0;
-    const double own = 2.0 * reached(before, after, by.row_limit) - 1.0;
-    const bool may_be_foreign = out.blocks < enough_blocks && !step.chosen.numbers.empty();
-    cap_probability(out, may_be_foreign ? std::min(own, 4.0 * all - 2.0) : own);
-    for (std::size_t row = 0; row < before.size(); ++row)
-        if (after[row] > by.row_limit) before[row] = left_out[row] = 0.0;
-    if (by.row_limit < infinite_loss) cap_probability(out, removed(before, left_out));
-    if (step.only_passes_stop) {
-        // All that the log shows of it is that the other control did not stop.
-        out.probability = std::min(out.probability, only_one_block);
-        out.rivals.push_back("another meaning of the block that stops");
-    }
-    return out;
-}
-
-/// A cause that improves nothing without another one is at most as sure as that one.
-void cap_by_needed(const GapQuestion& question, const GapSearch& found, const Judged& by,
-                   std::vector<GapCause>& causes) {
-    const std::size_t n = found.steps.size();
-    std::vector<double> loss(n);
-    for (std::size_t k = 0; k < n; ++k)
-        loss[k] = by.comparer.run(without(question.setup, found, {k})).loss;
-    std::vector<std::pair<std::size_t, std::size_t>> needs;
-    for (std::size_t k = 0; k < n; ++k)
-        for (std::size_t i = k + 1; i < n; ++i) {
-            const double neither = by.comparer.run(without(question.setup, found, {i, k})).loss;
-            if (neither - loss[i] <= still_helps * (loss[k] - found.run.loss))
-                needs.emplace_back(k, i);
-            if (neither - loss[k] <= still_helps * (loss[i] - found.run.loss))
-                needs.emplace_back(i, k);
-        }
-    for (std::size_t turn = 0; turn < n; ++turn)
-        for (const auto& [k, i] : needs)
-            causes[k].probability = std::min(causes[k].probability, causes[i].probability);
-}
+constexpr double surely_more = 1e-9;   ///< p of a mean that no noise has
+constexpr double contradicts = 0.9;    ///< of the loss: most that stays without the numbers
+constexpr double much_less = 0.5;      ///< of the loss that causes leave, by another reading
+constexpr double other_start = 1.2;    ///< of the loss: most with a start that may be right
 
 /// `whole`: the causes bring (almost) all rows with a gap down to noise, and spoil none.
 GapVerdict verdict_of(const ControlGap& gap, bool whole) {
@@ -367,6 +270,27 @@ void try_whole(const Asked& asked, LogOfProgram log, Answer& answer) {
     try_reading(asked, std::move(log), answer);
 }
 
+/// A large gap hides that a log begins within the program. Then its rows were compared with moves
+/// that it does not contain, and so is what the search made of them.
+void try_begun_within(const Asked& asked, const LogOfProgram& log, Answer& answer) {
+    if (!is_left(answer.gap) || log.view.begins_within) return;
+    LogOfProgram other = begun_within(log);
+    Answer second = judged(asked, other);
+    if (!lacks_begin(other, asked.comparer(other).run(second.reached))) return;
+    const double own = answer.gap.after_rms_um, here = second.gap.after_rms_um;
+    if (!is_left(second.gap) || here * here < much_less * own * own) answer = std::move(second);
+}
+
+/// Rows that are set aside are no part of the answer, and no agreement.
+void tell_foreign(std::size_t blocks, ControlGap& gap) {
+    if (blocks == 0 || is_left(gap)) return;
+    gap.verdict =
+        gap.verdict == GapVerdict::no_gap ? GapVerdict::unexplained : GapVerdict::partly_explained;
+    add_unknown(gap, blocks);
+    gap.causes.back().what = "the log has blocks that the program lacks";
+    gap.causes.back().share = 0.0;
+}
+
 }  // namespace
 
 ControlGap control_gap(const GapQuestion& question, interpreter::ProgramSource& programs,
@@ -390,6 +314,8 @@ ControlGap control_gap(const GapQuestion& question, interpreter::ProgramSource& 
     try_other_start(asked, log, answer);
     try_without_numbers(asked, log, answer);
     try_whole(asked, log, answer);
+    try_begun_within(asked, log, answer);
+    tell_foreign(log.foreign.size(), answer.gap);
     return std::move(answer.gap);
 }
 

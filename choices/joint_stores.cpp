@@ -56,9 +56,12 @@ class Joint {
     void see() {
         seen_.clear();
         columns_.clear();
+        other_moves_.clear();
         for (std::size_t s = 0; s < table_.size(); ++s)
             for (const StoredNumber& number : table_[s].numbers) {
-                auto column = column_of(comparer_, now_.setup, now_.run, number);
+                bool other_moves = false;
+                auto column = column_of(comparer_, now_.setup, now_.run, number, &other_moves);
+                if (other_moves) other_moves_.insert(s);
                 if (!column) continue;
                 columns_.push_back(std::move(*column));
                 seen_.push_back(
@@ -150,12 +153,23 @@ class Joint {
             if (behind < rival_gap_ && selection.stores(chosen.set).count(other) == 0)
                 cause.rivals.push_back(table_[other].name);
         }
+        // A store without a derivative (an empty length) is in no set that was compared.
+        const std::set<std::size_t> compared = selection.all_stores();
+        for (const std::size_t other : other_moves_) {
+            if (other == store || compared.contains(other)) continue;
+            const double behind = refitted(chosen, rest, other);
+            cause.others += std::exp(-behind);
+            if (behind < rival_gap_) cause.rivals.push_back(table_[other].name);
+        }
     }
-    /// A set that leaves as little has an equal share, however many numbers its stores have.
     double behind_by(const Chosen& chosen, const NumberSet& instead, double loss) const {
         if (instead.empty()) return std::numeric_limits<double>::infinity();
-        const double numbers = score_(loss, chosen.set.size()) - score_(loss, instead.size());
-        const double behind = chosen.score - chosen.selection.score_of(instead, loss);
+        return behind_by(chosen, chosen.selection.score_of(instead, loss), instead.size(), loss);
+    }
+    /// A set that leaves as little has an equal share, however many numbers its stores have.
+    double behind_by(const Chosen& chosen, double score, std::size_t count, double loss) const {
+        const double numbers = score_(loss, chosen.set.size()) - score_(loss, count);
+        const double behind = chosen.score - score;
         const double same =
             score_(now_.run.loss, chosen.set.size()) - score_(loss, chosen.set.size());
         return std::max(0.0, std::abs(same) < equal_score ? behind - numbers : behind);
@@ -168,7 +182,7 @@ class Joint {
         return rest - chosen.linear.least(set) > worth_a_fit * (rest - now_.run.loss);
     }
     /// The same through the control: far from the present run the derivatives are others.
-    double refitted(const Chosen& chosen, NumberSet set, std::size_t other) const {
+    double refitted(const Chosen& chosen, const NumberSet& set, std::size_t other) const {
         FittedControl control{start_, {}};
         Numbers numbers;
         for (const Index k : set) {
@@ -178,20 +192,22 @@ class Joint {
         }
         control.run = comparer_.run(control.setup);
         StoreFit fit = fit_store(comparer_, control.setup, control.run, table_[other], blocks_);
-        for (std::size_t k = 0; k < seen_.size(); ++k) {
-            const auto is_fitted = [&](const FittedNumber& n) {
-                return n.name == seen_[k].number->name;
-            };
-            if (std::none_of(fit.numbers.begin(), fit.numbers.end(), is_fitted)) continue;
-            if (std::find(set.begin(), set.end(), static_cast<Index>(k)) != set.end()) continue;
-            set = Selection::added(std::move(set), static_cast<Index>(k));
-            numbers.push_back(seen_[k].number);
-        }
         if (fit.numbers.empty()) return std::numeric_limits<double>::infinity();
+        const std::size_t before = numbers.size();
+        for (const StoredNumber& number : table_[other].numbers) {
+            const auto is_fitted = [&](const FittedNumber& n) { return n.name == number.name; };
+            if (std::any_of(fit.numbers.begin(), fit.numbers.end(), is_fitted) &&
+                std::find(numbers.begin(), numbers.end(), &number) == numbers.end())
+                numbers.push_back(&number);
+        }
         control = {std::move(fit.setup), std::move(fit.run)};
         for (int k = 0; k < most_fits && improve(comparer_, numbers, control); ++k) {
         }
-        return behind_by(chosen, set, control.run.loss);
+        std::set<std::size_t> stores = chosen.selection.stores(set);
+        if (numbers.size() > before) stores.insert(other);
+        const double score = score_(control.run.loss, numbers.size()) -
+                             least_odds_ * static_cast<double>(stores.size());
+        return behind_by(chosen, score, numbers.size(), control.run.loss);
     }
     /// A block that alone determines a number is not left out as a whole, but row by row.
     void divide_lone_blocks(const std::vector<Column>& columns, std::vector<int>& folds) const {
@@ -236,6 +252,8 @@ class Joint {
     ComparedRun before_;  ///< with the stores of the start
     std::vector<Seen> seen_;
     std::vector<Column> columns_;
+    std::set<std::size_t>
+        other_moves_;  ///< stores with a number whose every step makes other moves
 };
 
 }  // namespace

@@ -141,15 +141,9 @@ class Meanings {
     double noise() const {
         return static_cast<double>(now_.log.view.axes.size() * now_.log.view.rows.size());
     }
-    Meaning part(LogOfProgram log) const {
-        log.view.begins_within = true;
-        log.path.start = {};  // its first row is not where the program began
-        return meaning(std::move(log));
-    }
-    /// A trace has only ends of moves: that it lacks the first ones may be the other control's way.
+    Meaning part(LogOfProgram log) const { return meaning(begun_within(std::move(log))); }
     static bool is_possible(const Meaning& other) {
-        return !other.log.view.begins_within ||
-               blocks_before(other.run) > (other.log.view.ends ? most_unlogged : 0);
+        return !other.log.view.begins_within || lacks_begin(other.log, other.run);
     }
     std::optional<LogOfProgram> from_zero() const {
         if (now_.log.view.keys == 0 || now_.log.by_number) return std::nullopt;
@@ -201,6 +195,16 @@ LogOfProgram from_machine_zero(LogOfProgram log) {
         "the control started at its machine zero, and the first row of the log stands on its first "
         "move");
     return log;
+}
+
+LogOfProgram begun_within(LogOfProgram log) {
+    log.view.begins_within = true;
+    log.path.start = {};  // its first row is not where the program began
+    return log;
+}
+
+bool lacks_begin(const LogOfProgram& log, const ComparedRun& run) {
+    return blocks_before(run) > (log.view.ends ? most_unlogged : 0);
 }
 
 LogOfProgram without_numbers(LogOfProgram log) {

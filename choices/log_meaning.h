@@ -23,6 +23,13 @@ bool is_quiet(const LogOfProgram& log, const ComparedRun& run);
 /// Another start of the control: not the first row of a log of samples.
 LogOfProgram from_machine_zero(LogOfProgram log);
 
+/// What comes before the first row is not judged.
+LogOfProgram begun_within(LogOfProgram log);
+
+/// Blocks with motion before the first row. A trace has only ends of moves: that it lacks the first
+/// ones may be the other control's way.
+bool lacks_begin(const LogOfProgram& log, const ComparedRun& run);
+
 /// Rows assigned by their order alone.
 LogOfProgram without_numbers(LogOfProgram log);
 

@@ -58,14 +58,28 @@ class BlockKeys {
         });
     }
     bool by_number() const { return by_number_; }
+    const std::string& main() const { return main_; }
 
     int of_row(const records::PositionLog& log, const records::LoggedPosition& row) {
         if (row.block == 0) return -1;
         const std::string program = program_of(row.program);
-        if (by_number_ ? !known_.contains(row.block) : !knows_program_ && !any_has_line(row.block))
-            refuse(log, row);
+        if (!by_number_ && !knows_program_ && !any_has_line(row.block)) refuse(log, row);
         return keys_.try_emplace({program, row.block}, static_cast<int>(keys_.size()))
             .first->second;
+    }
+    /// The row is one of a block that no program has.
+    bool is_foreign(const records::LoggedPosition& row) const {
+        return by_number_ && row.block != 0 && !known_.contains(row.block);
+    }
+    void refuse_mostly_foreign(const records::PositionLog& log) const {
+        std::size_t count = 0;
+        const records::LoggedPosition* first = nullptr;
+        for (const records::LoggedPosition& row : log.rows) {
+            if (!is_foreign(row)) continue;
+            if (first == nullptr) first = &row;
+            ++count;
+        }
+        if (2 * count > log.rows.size()) refuse(log, *first);
     }
     int of_block(const PathBlock& block) const {
         const std::string file = block.program.empty() ? main_ : file_of(block.program);
@@ -202,6 +216,20 @@ void set_noise(const records::PositionLog& log, LogOfProgram& out) {
     out.view.rounding = rounding_of(out);
 }
 
+std::string foreign_note(const records::PositionLog& log, const LogOfProgram& of,
+                         const std::string& program) {
+    constexpr std::size_t told = 3;
+    std::string names;
+    std::size_t count = 0;
+    for (const int number : of.foreign)
+        if (count++ < told) names += fmt::format("{}N{}", names.empty() ? "" : ", ", number);
+    if (count > told) names += fmt::format(" and {} more", count - told);
+    return fmt::format(
+        "{}: {} has no {}: the rows of {} are set aside, and what the control does there is not "
+        "judged; is this the program that was logged? (a column of lines is named 'line')",
+        log.path, program, names, count > 1 ? "these blocks" : "this block");
+}
+
 }  // namespace
 
 const char* to_string(LogNoise noise) {
@@ -225,7 +253,14 @@ LogOfProgram log_of_program(const records::PositionLog& log,
     out.view.axes = log.axes;
     out.view.ends = log.ends;
     AxisPositions before;
+    keys->refuse_mostly_foreign(log);
     for (const records::LoggedPosition& row : log.rows) {
+        if (keys->is_foreign(row)) {
+            out.foreign.insert(row.block);
+            if (!out.view.rows.empty()) out.view.rows.back().cut = true;
+            before = row.at;
+            continue;
+        }
         const int key = log.blocks == records::BlockColumn::none ? -1 : keys->of_row(log, row);
         const double sigma = row.sigma_mm;
         if (log.ends && row.arc) {
@@ -246,6 +281,7 @@ LogOfProgram log_of_program(const records::PositionLog& log,
     out.view.key_of = [keys](const PathBlock& block) { return keys->of_block(block); };
     set_noise(log, out);
     out.notes = mark_missing_rows(out.view);
+    if (!out.foreign.empty()) out.notes.push_back(foreign_note(log, out, keys->main()));
     if (!out.view.marked && has_rows_at_ends(out.view)) {
         out.view.marked = true;
         out.notes.push_back(log.path +

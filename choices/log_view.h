@@ -1,6 +1,7 @@
 // A position log with its program: blocks, uncertainty, start.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -23,14 +24,16 @@ struct LogOfProgram {
     double sigma = 0.0;        ///< mean standard uncertainty of a position, mm or deg
     double least_sigma = 0.0;  ///< that of the printed increment
     double half_step = 0.0;    ///< half of that increment, mm or deg
+    std::set<int> foreign;     ///< N numbers of rows that are set aside: the program lacks them
     std::vector<std::string> notes;
 };
 
 /// `texts`: the main program first, then the programs that it calls. The uncertainty is that of the
 /// log, else (dense samples) the scatter about a smooth motion from third differences, at least
 /// that of the printed increment, and never below `least_sigma`. A column `block` contains N
-/// numbers if most of its values are N numbers of the program, else line numbers. Throws InputError
-/// with the log's line for a block that the program does not have.
+/// numbers if most of its values are N numbers of the program, else line numbers. Rows with another
+/// N number are set aside, with a note; more than half of them, or a line that the program does not
+/// have, throws InputError with the log's line.
 LogOfProgram log_of_program(const records::PositionLog& log,
                             const std::vector<interpreter::ProgramText>& texts,
                             std::uint64_t max_blocks = 0);

@@ -76,11 +76,12 @@ std::vector<std::string> mark_missing_rows(LogView& view) {
     std::vector<double> others(3, 0.0);
     std::vector<std::size_t> jumps;
     for (std::size_t i = 0; i < step.size(); ++i) {
-        view.rows[i].cut = step[i] >= from;
-        if (view.rows[i].cut)
+        const bool jump = step[i] >= from;
+        if (jump)
             jumps.push_back(i);
-        else
+        else if (!view.rows[i].cut)
             others.push_back(step[i]);
+        view.rows[i].cut = view.rows[i].cut || jump;
     }
     std::nth_element(others.begin(), others.begin() + 2, others.end(), std::greater<>());
     view.spacing = others[2];

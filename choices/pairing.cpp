@@ -8,6 +8,7 @@
 #include "choices/band.h"
 #include "choices/progress.h"
 #include "choices/row_keys.h"
+#include "choices/row_losses.h"
 #include "choices/space.h"
 #include "choices/way_match.h"
 
@@ -19,10 +20,11 @@ using offsets::ControlPosition;
 
 constexpr std::size_t most_cells = 4'000'000;  ///< of one block's table; beyond it, only a band is
                                                ///< computed
-constexpr std::size_t edge_nodes = 4;          ///< of a band: too near to its edge
 constexpr std::size_t wider = 4, widest = 16;  ///< of the margins of a band that was narrow
 constexpr double noise_sigmas = 6.0;           ///< of a row: less adds no way, and is no way back
-constexpr double as_cheap = 1e-6;              ///< of the square of a sigma
+constexpr int most_limits = 15;
+constexpr double farther = 64.0;   ///< the next limit of a cost
+constexpr double as_cheap = 1e-6;  ///< of the square of a sigma
 
 class Pairer {
   public:
@@ -211,11 +213,6 @@ class Pairer {
         const auto square = [&](std::size_t r) { return space_.square(missed(r, k, motion), {}); };
         return square(before) < square(last) ? before : last;
     }
-    /// A place on the segment to a node.
-    struct Spot {
-        double along_mm;
-        bool slides;
-    };
     /// The nearest place to a row that is no way back from where the rows before have come.
     Spot spot(std::size_t i, std::size_t k, const Progress& before) const {
         if (log_.rows[i].end && !rests(i)) return {length_[k], false};
@@ -231,15 +228,8 @@ class Pairer {
         return space_.apart(row_at(i),
                             space_.between(node_at(k - 1), node_at(k), fraction(spot, k)));
     }
-    /// With row i at a spot, after the row before it.
     Progress with_row(const Progress& before, const Spot& spot, std::size_t i) const {
-        Progress now = before;
-        now.along_mm = std::max(now.along_mm, spot.along_mm);
-        if (now.rows++ > 0) {
-            if (!log_.rows[i - 1].cut)
-                now.stride_mm = std::max(now.stride_mm, strides_.next(i - 1));
-        }
-        return now;
+        return strides_.with_row(before, spot.along_mm, i, i > 0 && !log_.rows[i - 1].cut);
     }
 
     /// The last one of some rows on the segment to a node, or a node that is passed after it.
@@ -282,8 +272,19 @@ class Pairer {
         // The last pair of a row is that of its own place.
         std::reverse(pairs_.begin() + static_cast<std::ptrdiff_t>(first), pairs_.end());
     }
-    /// Cell (i, j): i rows are placed, the last ones on the segment to node j + 1 or before.
+    /// A way that costs little needs only the cells that cost no more.
     std::vector<double> fill_samples(const Indices& rows, const Indices& nodes, Band& band) const {
+        const double weight = log_.rows[rows.front()].weight;
+        double limit = static_cast<double>(rows.size() * log_.axes.size()) / (weight * weight);
+        for (int turn = 1;; ++turn) {
+            if (auto last = filled_within(limit, rows, nodes, band)) return std::move(*last);
+            limit = turn < most_limits ? farther * limit : infinite;
+        }
+    }
+    /// Cell (i, j): i rows are placed, the last ones on the segment to node j + 1 or before.
+    /// Nothing if no way through the table costs at most `limit`.
+    std::optional<std::vector<double>> filled_within(double limit, const Indices& rows,
+                                                     const Indices& nodes, Band& band) const {
         const std::size_t n = nodes.size();
         Costs costs(n);
         auto& [before, now] = costs;
@@ -292,7 +293,9 @@ class Pairer {
             end_if_asked(i);
             if (i == 0) now[0] = 0.0;
             if (i == 0 && opens(rows)) std::fill_n(now.begin(), std::min(n, band.high(0) + 1), 0.0);
-            const double weight = log_.rows[rows[i - std::min<std::size_t>(i, 1)]].weight;
+            const double weight = log_.rows[rows[i - std::min<std::size_t>(i, 1)]].weight,
+                         tie = as_cheap / (weight * weight);
+            bool any = false;
             for (std::size_t j = band.low(i); j < std::min(n, band.high(i) + 1); ++j) {
                 comes[j] = {};
                 if (i > 0 && before[j] < infinite) {
@@ -301,20 +304,27 @@ class Pairer {
                     comes[j] = with_row(come[j], here, rows[i - 1]);
                     band.step(i, j) = row;
                 }
-                if (j == 0 || now[j - 1] == infinite) continue;
-                const std::size_t k = nodes[j - 1];
-                const std::size_t from = passing(rows, i, k, comes[j - 1]);
-                const double passed = now[j - 1] + space_.square(missed(from, k, comes[j - 1]), {});
-                // Of two ways as cheap, the one that has not come far on its segment.
-                if (passed > now[j] + as_cheap / (weight * weight)) continue;
-                now[j] = passed;
-                comes[j] = comes[j - 1].after(path_.nodes[k].end);
-                band.step(i, j) = node;
+                // Nothing that is passed makes a way cheaper; of two ways as cheap, the one that
+                // has not come far on its segment.
+                if (j > 0 && now[j - 1] < infinite && now[j - 1] <= now[j] + tie) {
+                    const std::size_t k = nodes[j - 1], from = passing(rows, i, k, comes[j - 1]);
+                    const double passed =
+                        now[j - 1] + space_.square(missed(from, k, comes[j - 1]), {});
+                    if (passed <= now[j] + tie) {
+                        now[j] = passed;
+                        comes[j] = comes[j - 1].after(path_.nodes[k].end);
+                        band.step(i, j) = node;
+                    }
+                }
+                if (now[j] > limit) now[j] = infinite;
+                any = any || now[j] < infinite;
             }
+            if (!any && limit < infinite) return std::nullopt;
             std::swap(come, comes);
             costs.next(band, i);
         }
-        return std::move(before);
+        const bool found = before[last_cell(before, 0, ends_open(rows))] < infinite;
+        return found || limit == infinite ? std::optional(std::move(before)) : std::nullopt;
     }
     void add_missed(std::size_t i, std::size_t k, const Progress& motion) {
         const ControlPosition apart = missed(i, k, motion);
@@ -384,16 +394,6 @@ std::vector<Pair> pair_up(const LogView& log, const ControlPath& path) {
         }
     }
     return out;
-}
-
-std::vector<double> row_losses(const LogView& log, const std::vector<Pair>& pairs) {
-    std::vector<double> loss(log.rows.size(), 0.0);
-    for (const Pair& pair : pairs) {
-        const double weight = log.rows[pair.row].weight;
-        for (const Axis axis : log.axes)
-            loss[pair.row] += weight * weight * pair.apart[axis] * pair.apart[axis];
-    }
-    return loss;
 }
 
 }  // namespace trunnion::choices

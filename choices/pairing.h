@@ -58,7 +58,4 @@ struct Pair {
 /// millimetre. Points after the last logged position are ignored. Throws PathEnded.
 std::vector<Pair> pair_up(const LogView& log, const ControlPath& path);
 
-/// Sum of squares of all pairs of a row, each axis divided by its uncertainty; one value a row.
-std::vector<double> row_losses(const LogView& log, const std::vector<Pair>& pairs);
-
 }  // namespace trunnion::choices

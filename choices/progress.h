@@ -27,6 +27,12 @@ struct Progress {
     }
 };
 
+/// A place on the segment to a node.
+struct Spot {
+    double along_mm;
+    bool slides;
+};
+
 /// Distances between the rows of a log of samples, mm or deg.
 class Strides {
   public:
@@ -39,6 +45,12 @@ class Strides {
     /// if they are even and there are two; else the samples around, and those of the whole log.
     double allowed(std::size_t row, const Progress& motion) const {
         return std::min(around_[row], own(motion));
+    }
+    /// With a row at a place, after the row before it. `joined`: no rows are missing between them.
+    Progress with_row(Progress now, double along_mm, std::size_t row, bool joined) const {
+        now.along_mm = std::max(now.along_mm, along_mm);
+        if (now.rows++ > 0 && joined) now.stride_mm = std::max(now.stride_mm, next(row - 1));
+        return now;
     }
 
   private:

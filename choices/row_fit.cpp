@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 namespace trunnion::choices {
@@ -13,6 +14,7 @@ namespace {
 constexpr std::size_t least_differences = 10;  ///< of rows, for their scatter
 constexpr double median_of_square = 0.7;       ///< of a normal variable in two or three directions
 constexpr double visible = 9.0;                ///< loss of an axis: a row beyond it shows a gap
+constexpr double spoiled = 5.0;                ///< rows or blocks that a wrong one counts as
 constexpr double clearly = 4.0;                ///< times the limit of a row: it is wrong
 constexpr double other_columns = 1e-3;         ///< of the loss: it is that of noise
 constexpr double most_scatter = 0.05;          ///< of the gap: a larger scatter is no noise
@@ -59,7 +61,6 @@ std::optional<double> scatter_about(const LogView& view, const ComparedRun& run,
 
 double reached(const std::vector<double>& before, const std::vector<double>& after,
                double row_limit) {
-    constexpr double spoiled_rows = 5.0;
     double rows = 0.0, good = 0.0;
     for (std::size_t row = 0; row < before.size(); ++row) {
         const bool fits = after[row] <= row_limit;
@@ -67,10 +68,38 @@ double reached(const std::vector<double>& before, const std::vector<double>& aft
             ++rows;
             good += fits ? 1.0 : 0.0;
         } else if (!fits) {
-            rows += spoiled_rows;
+            rows += spoiled;
         }
     }
     return rows > 0.0 ? good / rows : 1.0;
+}
+
+double reached_blocks(const std::vector<double>& before, const std::vector<double>& after,
+                      const std::vector<int>& blocks, double row_limit) {
+    struct Sum {
+        double gaps = 0.0, good = 0.0;
+        bool is_wrong = false;
+    };
+    std::map<int, Sum> sums;
+    for (std::size_t row = 0; row < before.size(); ++row) {
+        Sum& sum = sums[blocks[row]];
+        if (before[row] > row_limit) {
+            sum.gaps += 1.0;
+            sum.good += after[row] <= row_limit ? 1.0 : 0.0;
+        } else {
+            sum.is_wrong = sum.is_wrong || after[row] > clearly * row_limit;
+        }
+    }
+    double all = 0.0, good = 0.0;
+    for (const auto& [block, sum] : sums) {
+        if (sum.gaps > 0.0) {
+            all += 1.0;
+            good += sum.good / sum.gaps;
+        } else if (sum.is_wrong) {
+            all += spoiled;
+        }
+    }
+    return all > 0.0 ? good / all : 1.0;
 }
 
 bool stays_wrong(const std::vector<double>& before, const std::vector<double>& after,

@@ -23,6 +23,11 @@ std::optional<double> scatter_about(const LogView& view, const ComparedRun& run,
 double reached(const std::vector<double>& before, const std::vector<double>& after,
                double row_limit);
 
+/// The same of blocks: a block without a visible gap that is clearly wrong with the explanation
+/// counts as several. In a log of samples it may have few rows.
+double reached_blocks(const std::vector<double>& before, const std::vector<double>& after,
+                      const std::vector<int>& blocks, double row_limit);
+
 /// Rows are clearly wrong with the explanation, one that was right or more than one in a hundred:
 /// it is not the whole truth.
 bool stays_wrong(const std::vector<double>& before, const std::vector<double>& after,

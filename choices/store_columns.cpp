@@ -80,9 +80,13 @@ double value_of(const setup::Setup& setup, const StoredNumber& number) {
 }
 
 std::optional<Column> column_of(const Comparer& comparer, const setup::Setup& setup,
-                                const ComparedRun& run, const StoredNumber& number) {
+                                const ComparedRun& run, const StoredNumber& number,
+                                bool* other_moves) {
     const auto [path, step] = stepped(comparer, setup, run.path, number);
-    if (step == 0.0) return std::nullopt;
+    if (step == 0.0) {
+        if (other_moves != nullptr) *other_moves = true;
+        return std::nullopt;
+    }
     const std::vector<Axis>& axes = comparer.log().axes;
     Column out(run.pairs.size());
     double most = 0.0;

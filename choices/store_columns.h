@@ -30,9 +30,10 @@ double value_of(const setup::Setup& setup, const StoredNumber& number);
 
 /// Nothing if no pair depends on the number, or if every step of it makes the program execute other
 /// moves. A pair whose point slides along its segment contains no information along the direction
-/// of travel.
+/// of travel. `other_moves`: set to true in the second case.
 std::optional<Column> column_of(const Comparer& comparer, const setup::Setup& setup,
-                                const ComparedRun& run, const StoredNumber& number);
+                                const ComparedRun& run, const StoredNumber& number,
+                                bool* other_moves = nullptr);
 
 /// Those of several numbers; shorter than the list where one of them has none.
 std::vector<Column> columns_of(const Comparer& comparer, const setup::Setup& setup,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "choices/far_starts.h"
 #include "choices/folds.h"
 #include "choices/store_columns.h"
 
@@ -14,19 +15,28 @@ using Eigen::VectorXd;
 
 constexpr double least_part = 1e-3;  ///< of the loss: minimum reduction by another number
 constexpr int most_rounds = 25;
+constexpr double explains = 0.05;  ///< of the loss: most that stays where no other start is tried
 
 class Fitter {
   public:
     Fitter(const Comparer& comparer, const setup::Setup& setup, const ComparedRun& before,
            const Store& store)
         : comparer_(comparer), start_(setup), before_(before), now_{setup, before} {
-        for (const StoredNumber& number : store.numbers) seen_.push_back(&number);
+        for (const StoredNumber& number : store.numbers) all_.push_back(&number);
+        seen_ = all_;
     }
 
     StoreFit fit(const std::vector<int>& blocks) {
         StoreFit out;
         columns_ = keep_seen();
-        out.seen = !seen_.empty();
+        out.seen = !seen_.empty() || !other_moves_.empty();
+        add_numbers();
+        if (now_.run.loss > explains * before_.loss) begin_elsewhere();
+        return told(std::move(out), blocks);
+    }
+
+  private:
+    void add_numbers() {
         while (numbers_.size() < seen_.size() && add_number()) {
             for (int round = 1; round < most_rounds && improve(comparer_, numbers_, now_);
                  ++round) {
@@ -34,6 +44,42 @@ class Fitter {
             columns_ = columns(seen_);
             if (columns_.size() != seen_.size()) break;
         }
+    }
+    /// From the other values that a number may have; the best fit stays.
+    void begin_elsewhere() {
+        const FittedControl begun{start_, before_};
+        const FarStarts starts(comparer_, begun);
+        for (const StoredNumber* number : other_moves_) try_all(starts.of(*number, false));
+        for (const StoredNumber* number : Numbers(seen_)) try_all(starts.of(*number, true));
+    }
+    void try_all(std::vector<FarStart> starts) {
+        for (FarStart& start : starts) {
+            Fitter other(comparer_, start_, before_, std::move(start), all_);
+            if (other.now_.run.loss < (1.0 - least_part) * now_.run.loss) take(std::move(other));
+        }
+    }
+    void take(Fitter&& other) {
+        now_ = std::move(other.now_);
+        seen_ = std::move(other.seen_);
+        numbers_ = std::move(other.numbers_);
+        columns_ = std::move(other.columns_);
+    }
+    /// Fitted from another value of a number.
+    Fitter(const Comparer& comparer, const setup::Setup& setup, const ComparedRun& before,
+           FarStart start, const Numbers& all)
+        : comparer_(comparer),
+          start_(setup),
+          before_(before),
+          now_(std::move(start.control)),
+          all_(all),
+          seen_(all),
+          numbers_{start.number} {
+        while (improve(comparer_, numbers_, now_)) {
+        }
+        columns_ = keep_seen();
+        if (std::find(seen_.begin(), seen_.end(), start.number) != seen_.end()) add_numbers();
+    }
+    StoreFit told(StoreFit out, const std::vector<int>& blocks) {
         if (numbers_.empty()) return out;
         columns_ = columns(numbers_);
         if (columns_.size() != numbers_.size()) return out;
@@ -45,7 +91,6 @@ class Fitter {
         return out;
     }
 
-  private:
     std::vector<Column> columns(const Numbers& numbers) const {
         return columns_of(comparer_, now_.setup, now_.run, numbers);
     }
@@ -54,7 +99,9 @@ class Fitter {
         Numbers seen;
         std::vector<Column> out;
         for (const StoredNumber* number : seen_) {
-            auto column = column_of(comparer_, now_.setup, now_.run, *number);
+            bool other_moves = false;
+            auto column = column_of(comparer_, now_.setup, now_.run, *number, &other_moves);
+            if (other_moves) other_moves_.push_back(number);
             if (!column) continue;
             out.push_back(std::move(*column));
             seen.push_back(number);
@@ -125,8 +172,10 @@ class Fitter {
     const setup::Setup& start_;
     const ComparedRun& before_;
     FittedControl now_;
+    Numbers all_;
     Numbers seen_, numbers_;  ///< numbers that the path depends on, and those of them that are
                               ///< fitted
+    Numbers other_moves_;     ///< those of which every step makes other moves
     std::vector<Column> columns_;
 };
 

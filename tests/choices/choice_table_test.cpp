@@ -149,7 +149,12 @@ TEST_CASE("the overrun of G60 is found from none, and a stale one is fitted") {
         "N70 G60 X44. Y1.\nN80 G1 X50. Y5.\nN90 M30\n";
     const setup::Setup whole = mill("", "5440 = { X = 1.0, Y = -1.0 }\n"),
                        odd = mill("", "5440 = { X = 0.73, Y = 1.4 }\n");
-    CHECK(names_of(found(mill(""), whole, program)) == Names{"5440.X=1", "5440.Y=-1"});
+    const setup::Setup small = mill("", "5440 = { X = 0.04, Y = -0.07 }\n");
+    for (const setup::Setup& there : {whole, small}) {
+        const choices::ControlGap from_none = found(mill(""), there, program);
+        CHECK(names_of(from_none) == Names{"5440"});
+        CHECK(is_closed(from_none, there, program));
+    }
     const choices::ControlGap none = found(mill(""), odd, program);
     CHECK(names_of(none).contains("5440"));
     CHECK(is_closed(none, odd, program));

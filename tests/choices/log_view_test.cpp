@@ -56,17 +56,49 @@ TEST_CASE("the numbers of blocks are N numbers if most of them are N numbers of 
     CHECK(lines.view.key_of({"", 5}) == lines.view.rows[0].key);
 }
 
-TEST_CASE("an N number that the program lacks is refused by its name and row") {
-    const auto [text, row] = refused({2, 2, 3, 4, 9, 5}, small_numbers);  // line 9 exists
+TEST_CASE("rows with an N number that the program lacks are set aside, most of them are refused") {
+    const choices::LogOfProgram log = seen({2, 2, 3, 4, 9, 9, 5}, small_numbers);  // line 9 exists
+    CHECK(log.view.rows.size() == 5);
+    CHECK(log.view.rows[3].cut);
+    CHECK(log.foreign == std::set<int>{9});
+    CHECK_THAT(log.notes.front(),
+               Catch::Contains("p.nc has no N9: the rows of this block are set"));
+    const auto [text, row] = refused({20, 999, 30, 999, 40, 999, 999}, tens);
     CHECK_THAT(text, Catch::StartsWith(
-                         "block N9: p.nc has most N numbers of this column, but not this one"));
-    CHECK(row == 6);
-    const auto [other, last] = refused({20, 30, 40, 999}, tens);  // N20 exists, line 20 does not
-    CHECK_THAT(other, Catch::StartsWith("block N999:"));
-    CHECK(last == 5);
+                         "block N999: p.nc has most N numbers of this column, but not this one"));
+    CHECK(row == 3);
     const auto [lines, first] = refused({2, 700, 800}, tens);
     CHECK_THAT(lines, Catch::StartsWith("block 700: p.nc has 5 lines and no such N number"));
     CHECK(first == 3);
+}
+
+TEST_CASE("a block that the program lacks is no agreement, and hides no stale store") {
+    const std::string there =
+        "N10 G21 G90 G54\nN20 G0 X3.\nN30 Y8.\nN35 Z20.\nN36 Z0.\nN40 X9.\n"
+        "N50 Y3.\nN60 X1.\nN70 M30\n";
+    const auto mill = [](double x) {
+        return log_bench::setup_of(
+            "[machine]\nname = \"m\"\nchain = \"w b X Y Z t\"\n"
+            "[control.work_offsets]\nG54 = { X = " +
+            std::to_string(x) + " }\n");
+    };
+    std::string here = there;
+    here.erase(here.find("N35"), here.find("N40") - here.find("N35"));
+    for (const double x : {0.0, 0.25}) {
+        records::PositionLog log = log_bench::log_of(mill(x), there);
+        log.blocks = records::BlockColumn::number;
+        constexpr int numbers[] = {0, 10, 20, 30, 35, 36, 40, 50, 60, 70};
+        for (records::LoggedPosition& row : log.rows)
+            row.block = numbers[static_cast<std::size_t>(row.block)];
+        const choices::ControlGap gap = log_bench::gap_of(mill(0.0), log, here);
+        const auto unknown = std::find_if(gap.causes.begin(), gap.causes.end(),
+                                          [](const auto& cause) { return !cause.known; });
+        REQUIRE(unknown != gap.causes.end());
+        CHECK_THAT(unknown->what, Catch::Contains("blocks that the program lacks"));
+        CHECK(gap.verdict == (x == 0.0 ? choices::GapVerdict::unexplained
+                                       : choices::GapVerdict::partly_explained));
+        CHECK(gap.causes[0].known == (x != 0.0));
+    }
 }
 
 }  // namespace trunnion

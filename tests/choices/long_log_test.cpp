@@ -4,7 +4,7 @@
 
 #include "base/random.h"
 #include "base/waiting.h"
-#include "choices/pairing.h"
+#include "choices/row_losses.h"
 
 namespace trunnion {
 

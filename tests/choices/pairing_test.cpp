@@ -7,6 +7,7 @@
 
 #include "base/random.h"
 #include "choices/folds.h"
+#include "choices/row_losses.h"
 
 namespace trunnion {
 
