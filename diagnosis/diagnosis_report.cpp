@@ -185,6 +185,14 @@ const ColumnGroup& fullest_form(const Design& design, std::size_t rival) {
     return *fullest;
 }
 
+/// Probability that a claim or one of its rivals, which share alike, is the truth. Of a gap that is
+/// not explained something else is missing, which new readings will show as well.
+double believed(const Outcome& f, const Claim& claim) {
+    const double any = claim.probability * (1.0 + static_cast<double>(claim.rivals.size()));
+    const double part = std::clamp(f.judgement.part, 0.0, 1.0);
+    return std::min(1.0, any) * (part >= rules::explained ? 1.0 : part);
+}
+
 std::vector<AmbiguousPair> pairs_of(const Outcome& f, const std::vector<Claim>& claims,
                                     const Solution& solution) {
     constexpr std::size_t most = 2;  // of each claim
@@ -200,7 +208,7 @@ std::vector<AmbiguousPair> pairs_of(const Outcome& f, const std::vector<Claim>& 
             pairs.push_back({&own,
                              solution.mean.segment(solution.first[claim.position],
                                                    solution.size[claim.position]),
-                             &other});
+                             &other, believed(f, claim)});
         }
     }
     return pairs;
