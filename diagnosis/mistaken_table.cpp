@@ -22,6 +22,8 @@ namespace {
 
 /// A fit of the set-up alone tells a wrong column on this many readings as well as on all.
 constexpr std::size_t enough_readings = 600;
+constexpr double to_the_noise = 1.3;  ///< left by causes that explain the readings
+constexpr double absurd = 100.0;      ///< times the noise
 
 /// Rms without the largest twentieth, which a few spoiled readings may be.
 double trimmed_rms(std::vector<double> squares) {
@@ -33,23 +35,28 @@ double trimmed_rms(std::vector<double> squares) {
 }
 
 /// ... of the device that is furthest off: the many readings of one say nothing of another's
-/// columns.
+/// columns. Of a device whose unit was changed in the old unit: that its values became smaller is
+/// no fit.
 double furthest_off(const emulator::Replay& replay, const Eigen::VectorXd& left,
-                    const std::vector<bool>& used) {
+                    const std::vector<bool>& used, const TableSlip& slip) {
     std::map<records::Device, std::vector<double>> squares;
     for (std::size_t i = 0; i < replay.size(); ++i)
         if (used.empty() || used[i])
             squares[replay.contact(i).device].push_back(
                 std::pow(left(static_cast<Eigen::Index>(i)), 2));
     double most = 0.0;
-    for (auto& [device, list] : squares) most = std::max(most, trimmed_rms(std::move(list)));
+    for (auto& [device, list] : squares)
+        most = std::max(most,
+                        trimmed_rms(std::move(list)) / (device == slip.device ? slip.factor : 1.0));
     return most;
 }
 
-/// What the set-up alone leaves of a table, in sigma; empty if it cannot be fitted.
-std::optional<double> left_by_set_up(const setup::Setup& setup,
-                                     const records::ReadingTable& table) {
+/// What the set-up alone leaves of a table with a slip undone, in sigma; empty if it cannot be
+/// fitted.
+std::optional<double> left_by_set_up(const setup::Setup& setup, const records::ReadingTable& as_is,
+                                     const TableSlip& slip) {
     try {
+        const records::ReadingTable table = slip.undo ? undone(slip, as_is) : as_is;
         setup::Setup any = setup;
         any.model.allow_large = true;
         any =
@@ -58,7 +65,8 @@ std::optional<double> left_by_set_up(const setup::Setup& setup,
         const auto catalogue = effects::make_catalogue(any, effects::extent_of(any, table));
         const identification::BaseModel base =
             identification::fit_base(any, table, replay, catalogue, any.model.modelled);
-        const double left = furthest_off(replay, base.residual_mm.cwiseQuotient(base.sigma_mm), {});
+        const double left =
+            furthest_off(replay, base.residual_mm.cwiseQuotient(base.sigma_mm), {}, slip);
         return std::isfinite(left) ? std::optional(left) : std::nullopt;
     } catch (const InputError&) {
         return std::nullopt;  // no table of this machine
@@ -70,19 +78,17 @@ struct BestSlip {
     double before = 0.0, left = 0.0;  ///< in sigma of the table as it is
 };
 
-/// The change that leaves least. A change of unit counts by what it leaves in the old unit: that
-/// everything becomes smaller is no fit.
+/// The change that leaves least.
 std::optional<BestSlip> best_slip(const setup::Setup& setup, const records::ReadingTable& all) {
     const auto fewer = thinned(all, enough_readings);
     const records::ReadingTable& table = fewer ? *fewer : all;
-    const auto before = left_by_set_up(setup, table);
+    const auto before = left_by_set_up(setup, table, {});
     if (!before || *before < rules::mistaken_sigmas) return std::nullopt;
     std::optional<BestSlip> best;
     for (TableSlip& slip : slips_of(table)) {
-        const auto left = left_by_set_up(setup, undone(slip, table));
-        if (!left || *left / slip.factor > rules::mistaken_left * *before) continue;
-        if (!best || *left / slip.factor < best->left)
-            best = BestSlip{std::move(slip), *before, *left / slip.factor};
+        const auto left = left_by_set_up(setup, table, slip);
+        if (!left || *left > rules::mistaken_left * *before) continue;
+        if (!best || *left < best->left) best = BestSlip{std::move(slip), *before, *left};
     }
     return best;
 }
@@ -99,13 +105,13 @@ struct Explained {
     double left = 0.0, columns = 0.0;
 };
 
-Explained explained_by(const Prepared& p, const SearchResult& found,
-                       const std::vector<bool>& used) {
+Explained explained_by(const Prepared& p, const SearchResult& found, const std::vector<bool>& used,
+                       const TableSlip& slip) {
     Explained e;
     for (const std::size_t m : found.model.members)
         e.columns += static_cast<double>(found.design.group(m).columns());
     e.left = furthest_off(
-        p.replay, rest_of(p, found.design, found.model).cwiseQuotient(p.base.sigma_mm), used);
+        p.replay, rest_of(p, found.design, found.model).cwiseQuotient(p.base.sigma_mm), used, slip);
     return e;
 }
 
@@ -121,7 +127,7 @@ std::optional<Explained> explained_when_right(const BestSlip& best, const setup:
         take_promising_sides(p);
         KeySearch keys(p.replay, p.base);
         Searched s = search_of(p, round, keys, nullptr, {});
-        return explained_by(p, {s.design, s.model}, round.used);
+        return explained_by(p, {s.design, s.model}, round.used, best.slip);
     } catch (const InputError&) {
         return std::nullopt;
     }
@@ -159,10 +165,12 @@ std::optional<MistakenTable> wrong_size(const Prepared& p, double left) {
 std::optional<MistakenTable> mistaken_table(const Prepared& p, const SearchResult& found,
                                             const std::vector<bool>& used) {
     const Eigen::VectorXd sigma = p.base.sigma_mm;
-    if (furthest_off(p.replay, set_up_left_mm(p, found.design).cwiseQuotient(sigma), used) <
-        rules::mistaken_sigmas)
-        return std::nullopt;
-    const Explained now = explained_by(p, found, used);
+    const double before =
+        furthest_off(p.replay, set_up_left_mm(p, found.design).cwiseQuotient(sigma), used, {});
+    const Explained now = explained_by(p, found, used, {});
+    // What one effect of a machine explains to the noise is no slip, unless it is absurd.
+    const bool plain = found.model.members.size() < 2 && now.left < to_the_noise && before < absurd;
+    if (before < rules::mistaken_sigmas || plain) return std::nullopt;
     const auto best = best_slip(p.replay.setup(), p.table);
     if (!best) return wrong_size(p, now.left);
     const auto right = explained_when_right(*best, p.replay.setup(), p.table);
@@ -170,7 +178,7 @@ std::optional<MistakenTable> mistaken_table(const Prepared& p, const SearchResul
     // Two models of the same readings, each with its own noise: by the logarithm of what they
     // leave, and by the parameters that one has more. Poses and arcs tell independently.
     const auto blocks = static_cast<double>(p.folds.fold.size());
-    const double right_left = std::max(1.0, right->left / best->slip.factor);
+    const double right_left = std::max(1.0, right->left);
     const double evidence = blocks * std::log(std::max(1.0, now.left) / right_left) +
                             0.5 * (now.columns - right->columns) * std::log(std::max(2.0, blocks));
     if (evidence < -rules::least_evidence) return std::nullopt;

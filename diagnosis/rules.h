@@ -55,7 +55,7 @@ constexpr double main_family = 0.6;   ///< share of an axis's free forms; if sma
 constexpr double enormous = 30.0;  ///< typical sizes: a cause beyond is not written unless claimed
                                    ///< (assumed)
 
-constexpr double mistaken_sigmas = 5.0;   ///< left by the set-up: columns may be wrong from there
+constexpr double mistaken_sigmas = 3.0;   ///< left by the set-up: columns may be wrong from there
 constexpr double mistaken_left = 0.7;     ///< most of that which is left with a column put right
 constexpr double beside_mistaken = 0.05;  ///< probability at most of a cause beside a wrong table
 

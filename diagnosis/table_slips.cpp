@@ -56,7 +56,7 @@ void add_values(const records::ReadingTable& table, std::vector<TableSlip>& list
         const auto add_unit = [&](const char* unit, double factor) {
             list.push_back(
                 {fmt::format("the values of device {} seem to be in {}, not in mm", name, unit),
-                 scaled(device, factor), factor});
+                 scaled(device, factor), factor, device});
         };
         add_unit("inches", mm_per_inch);
         add_unit("m", 1000.0);

@@ -13,7 +13,8 @@ namespace trunnion::diagnosis {
 struct TableSlip {
     std::string words;  ///< "the columns dir_x and dir_y seem to be exchanged"
     std::function<void(records::Reading&)> undo;
-    double factor = 1.0;  ///< of the values, undone by as written
+    double factor = 1.0;  ///< by which undoing it multiplies the values ..
+    records::Device device = records::Device::none;  ///< .. of this device
 };
 
 /// The slips that this table allows, each by itself.
