@@ -7,6 +7,8 @@
 
 #include "diagnosis/cause_evidence.h"
 #include "diagnosis/contenders.h"
+#include "diagnosis/doubted.h"
+#include "diagnosis/mistaken_table.h"
 #include "diagnosis/offers.h"
 #include "diagnosis/rules.h"
 #include "estimation/distributions.h"
@@ -130,6 +132,13 @@ void share_with_angles(const Design& design, const ColumnGroup& own, Claim& clai
         claim.probability *= rules::of_line;
         return;
     }
+}
+
+/// A cause far beyond its usual size is less probable than a table that is not what it says.
+void doubt_size(double sizes, bool to_the_noise, Claim& claim) {
+    const double most = rules::most_at_size(sizes, to_the_noise);
+    claim.probability = std::min(claim.probability, most);
+    if (most < rules::sure) claim.rivals.push_back(mistaken_readings);
 }
 
 /// A free form of which the readings do not tell the family (seen through one tool length, an
@@ -299,6 +308,7 @@ std::vector<Claim> claims_of(const Searching& search, const Model& model, const 
     const std::vector<Offer> worth = worth_of_members(design, model);
     OffersBeside beside(design, model);
     std::vector<Claim> claims;
+    const std::vector<double> usual = usual_sizes(design, model);
     // Where far more remains than noise may be, sigma is no measure of what is small.
     const double left = model.variances.nu / std::sqrt(sizes.floor);
     const double least_rms = rules::least_rms * (left > 2.0 ? left : 1.0);
@@ -336,6 +346,7 @@ std::vector<Claim> claims_of(const Searching& search, const Model& model, const 
         name_contender(design, model, contender, sizes.parts.col(static_cast<Eigen::Index>(k)),
                        claim);
         name_axis(design, heldout.found, seen_axis, claim);
+        doubt_size(usual[k], left <= 2.0, claim);
         if (heldout.found.ended) claim.probability = std::min(claim.probability, unchallenged_most);
         claims.push_back(std::move(claim));
     }

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <utility>
 
+#include "base/alarm.h"
 #include "diagnosis/changes.h"
 #include "diagnosis/copies.h"
 #include "diagnosis/diagnosis_report.h"
+#include "diagnosis/mistaken_table.h"
 #include "diagnosis/open_sides.h"
 #include "diagnosis/outliers.h"
 #include "diagnosis/round.h"
@@ -63,6 +65,17 @@ bool same_noise(const NoiseModel& a, const NoiseModel& b) {
         if (x.shared > 0.03 && std::abs(x.memory - y.memory) > 0.03) return false;
     }
     return true;
+}
+
+/// A refusal says what is wrong with the table, if that is simple.
+Prepared prepared_or_told(const setup::Setup& setup, const records::ReadingTable& table) {
+    try {
+        return prepare(setup, table);
+    } catch (const InputError& error) {
+        const auto mistaken = mistaken_table(setup, table);
+        if (!mistaken) throw;
+        throw InputError(error.message + ". " + mistaken->words, error.where, error.line_text);
+    }
 }
 
 /// Log likelihood of the readings of a search, comparable between searches in the same rows.
@@ -133,6 +146,22 @@ bool corrected(Prepared& p, Searched& s, Round& round) {
     return changed;
 }
 
+/// The report; causes explain nothing of a table that is mistaken.
+Diagnosis reported(const Outcome& f, DiagnosisOptions options) {
+    const auto mistaken = mistaken_table(f.prepared, {f.design, f.model}, f.used);
+    if (!mistaken) return report_of(f, options);
+    Judgement judgement = f.judgement;
+    if (mistaken->certain) {
+        judgement.part = judgement.beside_zeros = 0.0;
+        options.plan_next = false;
+    }
+    Diagnosis d = report_of({f.prepared, f.design, f.setting, f.model, judgement, f.noise, f.used,
+                             f.beside_set_up, f.found},
+                            options);
+    tell_mistaken(*mistaken, d);
+    return d;
+}
+
 }  // namespace
 
 const char* to_string(Verdict verdict) {
@@ -171,7 +200,7 @@ Diagnosis diagnose(const setup::Setup& setup, const records::ReadingTable& table
     const auto watch = [&](const char* stage) {
         if (options.watch) options.watch(stage);
     };
-    Prepared p = prepare(setup, table);
+    Prepared p = prepared_or_told(setup, table);
     if (options.holdout) refuse_poor_holdout(p, *options.holdout);
     if (options.over_sessions) refuse_one_session(p);
     const std::vector<bool> all(p.replay.size(), true);
@@ -200,9 +229,9 @@ Diagnosis diagnose(const setup::Setup& setup, const records::ReadingTable& table
                                         : challenged(rows, s.setting, std::move(s.model));
     s.setting.go_on = {};
     const Judgement judgement = judged(rows, p, found.model, round.noise);
-    Diagnosis d = report_of({p, s.design, s.setting, found.model, judgement, round.noise,
-                             round.used, beside_set_up, found},
-                            options);
+    Diagnosis d = reported({p, s.design, s.setting, found.model, judgement, round.noise, round.used,
+                            beside_set_up, found},
+                           options);
     d.unfinished = found.ended;  // else only the next measurement may be missing
     if (const auto gap = store_gap(setup, table)) add_store_gap(setup, *gap, options.holdout, d);
     return d;

@@ -83,7 +83,8 @@ struct NextMeasurement {
     std::string first, second, text, program;
     Finite log_bayes_factor = 0.0;  ///< predicted
     Finite minutes = 0.0;
-    bool settles = false;  ///< predicted: it excludes the rival
+    Finite probability = 0.0;  ///< predicted: that it excludes the rival
+    bool settles = false;      ///< ... which is then expected (rules::settles)
 };
 
 struct Diagnosis {

@@ -185,6 +185,20 @@ const ColumnGroup& fullest_form(const Design& design, std::size_t rival) {
     return *fullest;
 }
 
+/// Probability that a claim or one of its rivals, which share alike, is the truth, and that the
+/// model is right beside them. Of a gap that is not explained something else is missing, which new
+/// readings will show as well.
+double believed(const Outcome& f, const std::vector<Claim>& claims, const Claim& claim) {
+    double believed = claim.probability * (1.0 + static_cast<double>(claim.rivals.size()));
+    believed = std::min(1.0, believed);
+    const double part = std::clamp(f.judgement.part, 0.0, 1.0);
+    if (part < rules::explained) believed *= part;
+    double beside = 1.0;
+    for (const Claim& other : claims)
+        if (other.name != claim.name) beside = std::min(beside, other.probability);
+    return believed * beside;
+}
+
 std::vector<AmbiguousPair> pairs_of(const Outcome& f, const std::vector<Claim>& claims,
                                     const Solution& solution) {
     constexpr std::size_t most = 2;  // of each claim
@@ -200,7 +214,7 @@ std::vector<AmbiguousPair> pairs_of(const Outcome& f, const std::vector<Claim>& 
             pairs.push_back({&own,
                              solution.mean.segment(solution.first[claim.position],
                                                    solution.size[claim.position]),
-                             &other});
+                             &other, believed(f, claims, claim)});
         }
     }
     return pairs;

@@ -46,8 +46,14 @@ class MeasurementPlan {
     /// program rotates the point about G54) or rtcp (G43.4, parameters 19700-19705).
     void sphere_by_store(PositioningMode mode, const std::vector<std::vector<double>>& angles_deg,
                          double approach_deg);
-    /// Touches around a sphere's equator in `azimuths` equal steps.
-    void azimuth_touches(const std::vector<double>& angles_deg, int azimuths);
+    /// Directions of touch from one height of a sphere, in equal steps.
+    struct Ring {
+        double lift_deg;  ///< 0 the equator, 90 the pole
+        int touches;
+    };
+    /// Touches from rings of a sphere. The equator alone shows nothing of its height; a sphere that
+    /// reaches up to where the touches start is touched there only.
+    void azimuth_touches(const std::vector<double>& angles_deg, const std::vector<Ring>& rings);
 
     /// Circle about the centre pivot, plane 0 XY (full), 1 YZ, 2 ZX (upper halves).
     void circle(int plane, double feed_mm_min, bool clockwise);
@@ -79,6 +85,7 @@ class MeasurementPlan {
     void touch(const AxisPositions& stand_off, const AxisPositions& end, const Vector3& direction,
                const std::string& feature);
     void call_sphere(const setup::Artefact& sphere, const AxisPositions& center);
+    void ring_touch(const Target& target, const AxisPositions& over, const Vector3& out);
     void keep_home(bool dpp);
     void lead_by_g54(const AxisPositions& rotary);
     bool can_lead_by_tcp(const AxisPositions& before, const Vector3& center_W) const;

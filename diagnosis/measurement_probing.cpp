@@ -217,7 +217,36 @@ void MeasurementPlan::sphere_by_store(PositioningMode mode,
     }
 }
 
-void MeasurementPlan::azimuth_touches(const std::vector<double>& angles_deg, int azimuths) {
+/// One touch of the first sphere along -out, from above its approach point.
+void MeasurementPlan::ring_touch(const Target& target, const AxisPositions& over,
+                                 const Vector3& out) {
+    const setup::Artefact& sphere = spheres_.front();
+    const double reach = 0.5 * (sphere.diameter_mm + setup_.probe->ball_diameter_mm);
+    const auto at = [&](double distance) {
+        AxisPositions q = target.at;
+        for (const Axis axis : {Axis::X, Axis::Y, Axis::Z})
+            q[axis] =
+                plan_rounded(q[axis] + distance * out(static_cast<int>(index_of(axis))), 1e-4);
+        return q;
+    };
+    const AxisPositions off = at(reach + stand_off_mm), end = at(reach - overtravel_mm);
+    AxisPositions up = off;
+    up[Axis::Z] = over[Axis::Z];
+    Vector3 way;
+    for (const Axis axis : {Axis::X, Axis::Y, Axis::Z})
+        way(static_cast<int>(index_of(axis))) = end[axis] - off[axis];
+    const std::string here = "\nM98P8102\n";
+    result_.program +=
+        "G0" + words(up, true) + here + "G0" + words(off, true) + here +
+        "#7=#5041\n#8=#5042\n#9=#5043\nG31" + words(end, true) +
+        fmt::format(" F{0:.0f}\nG65P8101X#7Y#8Z#9I{1:.4f}J{2:.4f}K{3:.4f}F{0:.0f}\nG0",
+                    probing_feed, way.x(), way.y(), way.z()) +
+        words(off, true) + here + "G0" + words(up, true) + here;
+    touch(off, end, way.normalized(), sphere.name);
+}
+
+void MeasurementPlan::azimuth_touches(const std::vector<double>& angles_deg,
+                                      const std::vector<Ring>& rings) {
     const setup::Artefact& sphere = spheres_.front();
     const Target target = aim(rotary_at(angles_deg, 0.0), sphere.center_W_mm, tip_S());
     if (!target.reachable) return;
@@ -229,26 +258,15 @@ void MeasurementPlan::azimuth_touches(const std::vector<double>& angles_deg, int
     go(over, true);
     over[Axis::Z] = target.at[Axis::Z] + above_mm;
     go(over, true);
-    for (int k = 0; k < azimuths; ++k) {
-        const double angle = 2.0 * pi * k / azimuths;
-        const auto at = [&](double distance) {
-            AxisPositions q = target.at;
-            q[Axis::X] = plan_rounded(q[Axis::X] + distance * std::cos(angle), 1e-4);
-            q[Axis::Y] = plan_rounded(q[Axis::Y] + distance * std::sin(angle), 1e-4);
-            return q;
-        };
-        const AxisPositions off = at(reach + stand_off_mm), end = at(reach - overtravel_mm);
-        AxisPositions up = off;
-        up[Axis::Z] = over[Axis::Z];
-        const Vector3 way(end[Axis::X] - off[Axis::X], end[Axis::Y] - off[Axis::Y], 0.0);
-        const std::string here = "\nM98P8102\n";
-        result_.program +=
-            "G0" + words(up, true) + here + "G0" + words(off, true) + here +
-            "#7=#5041\n#8=#5042\n#9=#5043\nG31" + words(end, true) +
-            fmt::format(" F{0:.0f}\nG65P8101X#7Y#8Z#9I{1:.4f}J{2:.4f}K0.F{0:.0f}\nG0", probing_feed,
-                        way.x(), way.y()) +
-            words(off, true) + here + "G0" + words(up, true) + here;
-        touch(off, end, way.normalized(), sphere.name);
+    for (const Ring& ring : rings) {
+        const double lift = rad_from_deg(ring.lift_deg);
+        if (std::sin(lift) * (reach + stand_off_mm) > above_mm) continue;
+        for (int k = 0; k < ring.touches; ++k) {
+            const double turn = 2.0 * pi * k / ring.touches;
+            ring_touch(
+                target, over,
+                {std::cos(lift) * std::cos(turn), std::cos(lift) * std::sin(turn), std::sin(lift)});
+        }
     }
 }
 

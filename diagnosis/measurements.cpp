@@ -85,9 +85,13 @@ constexpr Ready ready_list[] = {
              spread(p, 6);
          }
      }},
-    {"eight_azimuths", "touch a sphere from 8 directions at 4 table angles", false,
+    {"eight_azimuths",
+     "touch a sphere at its pole, from 4 directions at 45 degrees and from 8 at its equator, at 4 "
+     "table angles",
+     false,
      [](MeasurementPlan& p) {
-         for (const double c : {0.0, 50.0, 130.0, 260.0}) p.azimuth_touches({0.0, c}, 8);
+         for (const double c : {0.0, 50.0, 130.0, 260.0})
+             p.azimuth_touches({0.0, c}, {{90.0, 1}, {45.0, 4}, {0.0, 8}});
      }},
     {"added_load", "find spheres at 8 poses empty and at 8 with 80 kg on the table", false,
      [](MeasurementPlan& p) {

@@ -9,6 +9,7 @@
 
 #include "diagnosis/measurement_repeats.h"
 #include "diagnosis/rules.h"
+#include "estimation/distributions.h"
 #include "estimation/inner_products.h"
 #include "estimation/ranked_least_squares.h"
 
@@ -153,8 +154,31 @@ class Mimic {
     double energy_ = 0.0;
 };
 
-/// Factor on the loss at which a rival is dropped, for the noise of the new readings.
-constexpr double settled_margin = 1.5;
+/// What the rival will lose with the new readings, and how well that is known.
+struct Prospect {
+    double lost = 0.0;          ///< expected
+    double contribution = 0.0;  ///< of the cause, with the new readings
+    double known = 0.0;         ///< ... with the present ones
+};
+
+/// Probability that a rival loses what it takes to drop it. The chi-squared that it loses scatters
+/// by twice its root, because of the noise; it grows with the square of the effect's size, which
+/// the present readings tell to one part in the root of its contribution.
+double probability_to_drop(const Prospect& p) {
+    const double by_size = 2.0 * p.lost / std::sqrt(std::max(1.0, p.known));
+    const double spread = std::hypot(2.0 * std::sqrt(p.lost), by_size);
+    return estimation::normal_tail((rules::rival_limit(p.contribution) - p.lost) /
+                                   std::max(1e-9, spread));
+}
+
+std::string expectation(double probability) {
+    constexpr double hardly = 0.05;
+    if (probability < hardly) return "alone it hardly settles the matter";
+    return probability >= rules::settles
+               ? "it is expected to settle the matter"
+               : fmt::format("it settles the matter with a probability of {:.0f} %",
+                             100.0 * probability);
+}
 
 /// The readings so far.
 struct Present {
@@ -243,8 +267,7 @@ class Rivalry {
         for (const RivalForm& form : forms_) least = std::min(least, form.now.left());
         return least;
     }
-    /// What it will lose with the new readings, and the contribution of the cause then.
-    std::pair<double, double> after(const Worked& w) const {
+    Prospect after(const Worked& w) const {
         const Eigen::VectorXd target = effect_block(w, *pair_.claimed) * pair_.values;
         double least = std::numeric_limits<double>::infinity(), contribution = 0.0;
         for (const RivalForm& form : forms_) {
@@ -254,7 +277,7 @@ class Rivalry {
             if (left < least) contribution = then.left_by_base();
             least = std::min(least, left);
         }
-        return {least, contribution};
+        return {least, contribution, forms_.front().now.left_by_base()};
     }
 
   private:
@@ -269,22 +292,22 @@ NextMeasurement best_for(const AmbiguousPair& pair, const std::vector<Worked>& l
     NextMeasurement best{pair.claimed->name, pair.rival->name, "", "", 0.0, 0.0};
     double rate = 0.0;
     for (const Worked& w : list) {
-        const auto [lost, contribution] = rivalry.after(w);
-        const double gain = 0.5 * (lost - before);
-        if (gain < 3.0 || !shows_more(w, lost - before, before, present)) continue;
+        const Prospect prospect = rivalry.after(w);
+        const double more = prospect.lost - before, gain = 0.5 * more;
+        if (gain < 3.0 || !shows_more(w, more, before, present)) continue;
         // Degree of separation for each minute; beyond full separation there is no further benefit.
-        const double settled =
-            std::min(1.0, lost / (settled_margin * rules::rival_limit(contribution)));
+        const double probability = pair.believed * probability_to_drop(prospect);
+        const double settled = std::min(1.0, probability / rules::settles);
         if (settled * settled / w.measurement.minutes <= rate) continue;
         rate = settled * settled / w.measurement.minutes;
         best.log_bayes_factor = gain;
         best.minutes = w.measurement.minutes;
-        best.settles = settled == 1.0;
+        best.probability = probability;
+        best.settles = probability >= rules::settles;
         best.program = w.measurement.program;
-        best.text = fmt::format("to tell {} from {}: {} (about {:.0f} minutes; {})", best.first,
-                                best.second, w.measurement.text, best.minutes,
-                                best.settles ? "it is expected to settle the matter"
-                                             : "it may take more than this one");
+        best.text =
+            fmt::format("to tell {} from {}: {} (about {:.0f} minutes; {})", best.first,
+                        best.second, w.measurement.text, best.minutes, expectation(probability));
     }
     if (best.text.empty()) best.text = without_measurement(best.first, best.second);
     return best;

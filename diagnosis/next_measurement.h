@@ -13,6 +13,7 @@ struct AmbiguousPair {
     const ColumnGroup* claimed = nullptr;
     Eigen::VectorXd values;  ///< of the claimed columns, in typical changes
     const ColumnGroup* rival = nullptr;
+    double believed = 1.0;  ///< probability that the truth is one of its causes
 };
 
 /// For each pair, the ready measurement with the largest predicted discrimination for each minute:

@@ -55,6 +55,10 @@ constexpr double main_family = 0.6;   ///< share of an axis's free forms; if sma
 constexpr double enormous = 30.0;  ///< typical sizes: a cause beyond is not written unless claimed
                                    ///< (assumed)
 
+constexpr double mistaken_sigmas = 3.0;   ///< left by the set-up: columns may be wrong from there
+constexpr double mistaken_left = 0.7;     ///< most of that which is left with a column put right
+constexpr double beside_mistaken = 0.05;  ///< probability at most of a cause beside a wrong table
+
 constexpr double most_scatter = 4.0;    ///< of repeats, relative to what is stated: more is a gap
 constexpr double most_outliers = 0.04;  ///< of the readings: more are a gap of some kind
 constexpr double most_doubtful = 0.2;   ///< ... of which the evidence may say that they are spoiled
@@ -63,6 +67,8 @@ constexpr double driver_share = 0.05;
 constexpr double rival_loss = 12.0;  ///< maximum chi-squared lost by a rival
 constexpr double rival_part = 0.04;  ///< ... or as a part of the contribution
 constexpr double rival_left = 3.0;   ///< ... and of a reading: no rival leaves twice the rms
+
+constexpr double settles = 0.9;  ///< probability from which a measurement is expected to settle
 
 constexpr double set_up_range = 20.0;  ///< typical sizes: sigma of a set-up value beforehand;
                                        ///< unobservable directions stay constant
@@ -75,6 +81,18 @@ constexpr double claimed = 0.5;  ///< probability of a cause that is claimed, no
 constexpr double store_sigmas = 5.0;  ///< of a store's number: claimed from there, missed below
 constexpr double strange_mm = 5e-3;   ///< differences of programmed points that no store explains:
                                       ///< larger than the last digits of rotary axes
+
+/// Odds that a table is mistaken (columns, units, setup) where a cause is `enormous`: they grow
+/// with its size; less where the causes explain the readings to their noise, as no wrong column
+/// would (assumed).
+constexpr double mistaken_odds = 0.05, mistaken_odds_explained = 0.005;
+
+/// Probability at most of a cause of so many typical sizes.
+inline double most_at_size(double sizes, bool to_the_noise) {
+    if (sizes <= enormous) return 1.0;
+    return 1.0 /
+           (1.0 + (to_the_noise ? mistaken_odds_explained : mistaken_odds) * sizes / enormous);
+}
 
 /// Chi-squared that an effect may lose against the claimed one and still count as its rival.
 inline double rival_limit(double contribution) {

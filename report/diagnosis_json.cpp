@@ -100,6 +100,7 @@ Json next_of(const diagnosis::Diagnosis& d) {
                         {"program", next.program},
                         {"log_bayes_factor", next.log_bayes_factor},
                         {"minutes", next.minutes},
+                        {"probability", next.probability},
                         {"settles", next.settles}});
     return list;
 }

@@ -1,0 +1,40 @@
+// A table whose columns do not hold what they say: exchanged, turned in sign, in another unit.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "diagnosis/diagnosis.h"
+#include "diagnosis/round.h"
+
+namespace trunnion::diagnosis {
+
+/// Name of a rival: the table is mistaken. No setup contains it.
+inline constexpr const char* mistaken_readings = "readings.mistaken";
+
+struct MistakenTable {
+    std::string words;     ///< a sentence
+    bool certain = false;  ///< no machine explains the readings as well as this does
+};
+
+struct SearchResult {
+    Design& design;
+    const Model& model;
+};
+
+/// The simple change of a table (two columns exchanged, a sign turned, mm for inches, ..) that
+/// explains nearly everything: with it the set-up alone leaves much less than it leaves now, and
+/// the evidence of a search among causes in the table put right is not much below that of the
+/// causes found in it as it stands. Only looked for where the set-up alone is far from the
+/// readings.
+std::optional<MistakenTable> mistaken_table(const Prepared& prepared, const SearchResult& found,
+                                            const std::vector<bool>& used);
+
+/// The same for a table that is refused, because the set-up leaves residuals of no machine.
+std::optional<MistakenTable> mistaken_table(const setup::Setup& setup,
+                                            const records::ReadingTable& table);
+
+/// No cause is sure beside a table that may be mistaken.
+void tell_mistaken(const MistakenTable& mistaken, Diagnosis& diagnosis);
+
+}  // namespace trunnion::diagnosis
