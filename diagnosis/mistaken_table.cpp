@@ -8,6 +8,7 @@
 
 #include "base/alarm.h"
 #include "base/rounded.h"
+#include "diagnosis/doubted.h"
 #include "diagnosis/open_sides.h"
 #include "diagnosis/outliers.h"
 #include "diagnosis/rules.h"
@@ -168,9 +169,12 @@ std::optional<MistakenTable> mistaken_table(const Prepared& p, const SearchResul
     const double before =
         furthest_off(p.replay, set_up_left_mm(p, found.design).cwiseQuotient(sigma), used, {});
     const Explained now = explained_by(p, found, used, {});
-    // What one effect of a machine explains to the noise is no slip, unless it is absurd.
-    const bool plain = found.model.members.size() < 2 && now.left < to_the_noise && before < absurd;
-    if (before < rules::mistaken_sigmas || plain) return std::nullopt;
+    if (before < rules::mistaken_sigmas) return std::nullopt;
+    // What effects of usual size explain to the noise is no slip, unless it is absurd.
+    const std::vector<double> sizes = usual_sizes(found.design, found.model);
+    const bool usual = std::all_of(sizes.begin(), sizes.end(),
+                                   [](double size) { return size < rules::enormous; });
+    if (usual && now.left < to_the_noise && before < absurd) return std::nullopt;
     const auto best = best_slip(p.replay.setup(), p.table);
     if (!best) return wrong_size(p, now.left);
     const auto right = explained_when_right(*best, p.replay.setup(), p.table);

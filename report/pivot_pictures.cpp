@@ -136,17 +136,19 @@ void draw_circle(const Plot& plot, Svg& svg, const CirclePlane& plane, const piv
     const Point2 centre = plane.um(arc.circle.centre_mm),
                  expected = plane.um(arc.expected.centre_mm);
     svg.circle(plot.at(centre.x, centre.y), um_from_mm(arc.circle.radius_mm()) * plot.scale_x(),
-               {plot_colours[k], k % 2 ? 1.2 : 2.2, "none", ""});
+               {plot_colours[k], k % 2 ? 1.2 : 5.0, "none", ""});
     svg.circle(plot.at(expected.x, expected.y),
                um_from_mm(arc.expected.radius_mm()) * plot.scale_x(),
                {plot_colours[k], 0.8, "none", "6 5"});
     for (const pivot::PivotPoint& p : arc.points) {
         const Point2 at = plane.um(p.error_mm);
-        svg.mark(plot.at(at.x, at.y), static_cast<int>(k), plot_colours[k], k % 2 ? 1.8 : 3.0);
+        svg.mark(plot.at(at.x, at.y), static_cast<int>(k), plot_colours[k], k % 2 ? 1.8 : 4.5);
     }
     const Point2 at = plot.at(centre.x, centre.y);
-    svg.line({at.x - 5, at.y}, {at.x + 5, at.y}, {plot_colours[k], 1.2, "none", ""});
-    svg.line({at.x, at.y - 5}, {at.x, at.y + 5}, {plot_colours[k], 1.2, "none", ""});
+    // Functions with one store have one circle: the wider one shows behind the other.
+    const double arm = k % 2 ? 5.0 : 8.0, width = k % 2 ? 1.2 : 4.0;
+    svg.line({at.x - arm, at.y}, {at.x + arm, at.y}, {plot_colours[k], width, "none", ""});
+    svg.line({at.x, at.y - arm}, {at.x, at.y + arm}, {plot_colours[k], width, "none", ""});
 }
 
 double reach_um(const std::vector<pivot::PivotMap>& maps) {

@@ -21,11 +21,11 @@ double error_um(const volumetric::VolumetricPoint& point) {
     return um_from_mm(point.error_W_mm.norm());
 }
 
-/// Dark to light with increasing error, monotonic also in grey and for colour-blind readers
-/// (viridis, five steps).
+/// Dark to light with increasing error as on the page of a run, monotonic also in grey and for
+/// colour-blind readers (viridis, five steps).
 std::string heat(double part) {
     constexpr std::array<std::array<double, 3>, 5> steps{
-        {{253, 231, 37}, {94, 201, 98}, {33, 145, 140}, {59, 82, 139}, {68, 1, 84}}};
+        {{68, 1, 84}, {59, 82, 139}, {33, 145, 140}, {94, 201, 98}, {253, 231, 37}}};
     const double at = 4.0 * std::clamp(part, 0.0, 1.0);
     const auto i = static_cast<std::size_t>(std::min(3.0, std::floor(at)));
     const double f = at - static_cast<double>(i);
@@ -159,7 +159,7 @@ void draw_arrows(Svg& svg, const Plot& plot, const Slice& slice) {
     for (const volumetric::VolumetricPoint* p : slice.points) {
         const Point2 at = plot.at(p->at[Axis::X], p->at[Axis::Y]);
         const double scale = slice.arrow_px / slice.largest_um;
-        const std::string ink = error_um(*p) / slice.largest_um > 0.45 ? "white" : "#222";
+        const std::string ink = error_um(*p) / slice.largest_um < 0.55 ? "white" : "#222";
         svg.circle(at, 2.0, {"none", 0.0, ink, ""});
         arrow(svg, at,
               {at.x + scale * um_from_mm(p->error_W_mm.x()),
