@@ -167,10 +167,48 @@ void refuse_words(const CheckSection& section, const interpreter::Block& block, 
     if (const auto own = trial.run(words->words)) throw *own;
 }
 
-/// True when the block behind this one is not always the next one.
-bool branches(const interpreter::ParsedProgram& program, const interpreter::Block& block) {
+/// True when the program O`number` of the same file has nothing but M99 that ends it.
+bool returns(const interpreter::ParsedProgram& program, int number) {
+    bool inside = false, found = false;
+    for (const interpreter::Block& block : program.blocks) {
+        if (block.kind == interpreter::BlockKind::program) inside = block.o_number == number;
+        if (!inside) continue;
+        found = true;
+        for (const Item& item : program.items(block)) {
+            if (item.kind != ItemKind::word) continue;
+            const auto value = interpreter::constant_value(program, item);
+            const int code = value ? code10_of(*value) : 0;
+            const bool ends = item.letter == 'M' && code != 990 && (code == 20 || code >= 300);
+            const bool computed = !value && (item.letter == 'M' || item.letter == 'G');
+            const bool calls = item.letter == 'G' && code >= 650 && code <= 661;
+            if (ends || calls || computed) return false;
+        }
+        if (has_code(program, block, 'M', 990) && word_value(program, block, 'P')) return false;
+    }
+    return found;
+}
+
+/// A call that may not come back to the next block.
+bool goes_away(const interpreter::ParsedProgram& program, const interpreter::Block& block,
+               const CheckOptions& options) {
     const auto items = program.items(block);
-    return leaves(program, block) || std::any_of(items.begin(), items.end(), [](const Item& item) {
+    const bool calls = std::any_of(items.begin(), items.end(), [&](const Item& item) {
+        if (item.kind != ItemKind::word) return false;
+        const auto value = interpreter::constant_value(program, item);
+        return is_call(item.letter, value ? code10_of(*value) : -1, options);
+    });
+    if (!calls) return false;
+    int column = 1;
+    const auto number = called_program(program, block, column);
+    return !number || !returns(program, *number);
+}
+
+/// True when the block behind this one is not always the next one.
+bool branches(const interpreter::ParsedProgram& program, const interpreter::Block& block,
+              const CheckOptions& options) {
+    const auto items = program.items(block);
+    return leaves(program, block) || goes_away(program, block, options) ||
+           std::any_of(items.begin(), items.end(), [](const Item& item) {
                return item.kind == ItemKind::go_to || item.kind == ItemKind::if_block ||
                       item.kind == ItemKind::else_ || item.kind == ItemKind::while_do ||
                       item.kind == ItemKind::end;
@@ -188,7 +226,7 @@ void read_rest(const CheckSection& section, const CarriedOut& so_far, Trial& tri
         Reach reach = so_far.ended         ? Reach::never
                       : behind && straight ? Reach::certain
                                            : Reach::conditional;
-        straight = straight && (!behind || !branches(*section.program, block));
+        straight = straight && (!behind || !branches(*section.program, block, options));
         if (so_far.done[i]) continue;
         try {
             if (block.kind != interpreter::BlockKind::words)

@@ -101,6 +101,12 @@ void watch_arc(ArcFit fit, const PlaneElement& figure, const Modal& modal, Mover
                        .end_mm = end_radius(figure)});
 }
 
+void watch_straight_arc(const SortedWords& words, const Modal& modal, Mover& mover) {
+    const motion::PlaneAxes& plane = modal.plane();
+    if (!words.has('R') && (words.has(plane.first) || words.has(plane.second)))
+        mover.caution({.kind = CautionKind::straight_arc, .line = modal.block.line});
+}
+
 void move_arc_block(const SortedWords& words, Modal& modal, const Frames& frames, Mover& mover) {
     const motion::PlaneAxes& plane = modal.plane();
     check_arc_words(words, modal);
@@ -115,6 +121,7 @@ void move_arc_block(const SortedWords& words, Modal& modal, const Frames& frames
         raise_alarm(22);
     }
     if (!figure.arc) {  // 3403#5 = 0: a straight line
+        watch_straight_arc(words, modal, mover);
         mover.line(motion::MotionKind::linear, target);
         return;
     }

@@ -41,6 +41,8 @@ ArcFit bend_to_arc(const SortedWords& words, const motion::PlaneAxes& plane, con
 /// Tells an end that is not on the circle.
 void watch_arc(ArcFit fit, const PlaneElement& figure, const Modal& modal, Mover& mover);
 
+/// Tells an arc without R and centre.
+void watch_straight_arc(const SortedWords& words, const Modal& modal, Mover& mover);
 /// Executes the arc commanded by this block.
 void move_arc_block(const SortedWords& words, Modal& modal, const Frames& frames, Mover& mover);
 

@@ -23,6 +23,7 @@ constexpr CautionRow caution_rows[] = {
     {CautionKind::no_offset, "offset", "Write the number of the offset."},
     {CautionKind::open_arc, "arc-radius",
      "Correct the end point or the centre (I, J, K from the start)."},
+    {CautionKind::straight_arc, "arc-radius", "Write R or the centre, or G1."},
 };
 
 const CautionRow& row_of(CautionKind kind) {
@@ -56,9 +57,9 @@ std::string arcs_note(const std::vector<Caution>& all, std::size_t more) {
     }
     if (!first) return {};
     return fmt::format(
-        "{} arc{} not on {} circle by up to {:.4f} mm, the first in line {}: "
-        "with parameter 3410 at 0 or not given this is no alarm (else PS0020)",
-        count, count == 1 ? " ends" : "s end", count == 1 ? "its" : "their", widest, first->line);
+        "{} arc{} off the circle by up to {:.4f} mm, the first in line {}: with "
+        "parameter 3410 at 0 or not given this is no alarm (else PS0020)",
+        count, count == 1 ? " ends" : "s end", widest, first->line);
 }
 
 std::string text_of(const Caution& c) {
@@ -73,6 +74,8 @@ std::string text_of(const Caution& c) {
             return fmt::format("{} without {} so far: {}",
                                c.letter == 'D' ? "G41 or G42" : "tool length compensation",
                                c.letter, what_is_used(c.letter));
+        case CautionKind::straight_arc:
+            return "G2 or G3 without R and centre: a straight line (3403#5 = 0)";
         case CautionKind::open_arc: break;
     }
     return fmt::format("radius {:.4f} at the arc's start and {:.4f} at its end", c.start_mm,
@@ -89,6 +92,7 @@ ToldCaution told(const Caution& caution) {
 void Cautions::add(const Caution& c) {
     const bool offset = c.kind == CautionKind::unset_offset || c.kind == CautionKind::no_offset;
     if (offset && !offsets_.emplace(c.letter, c.number).second) return;
+    if (c.kind == CautionKind::straight_arc && std::exchange(straight_told_, true)) return;
     if (c.kind == CautionKind::open_arc && !arc_lines_.insert(c.line).second) return;
     if (all_.size() == most_kept) {
         if (c.kind == CautionKind::open_arc) ++more_;
@@ -102,7 +106,7 @@ std::vector<std::string> Cautions::notes() const {
     std::vector<std::string> out;
     for (const Caution& c : all_) {
         if (c.kind == CautionKind::bare_words) out.push_back(text_of(c));
-        if (c.kind == CautionKind::no_offset)
+        if (c.kind == CautionKind::no_offset || c.kind == CautionKind::straight_arc)
             out.push_back(fmt::format("line {}: {}", c.line, text_of(c)));
     }
     for (std::string line : {offsets_note(all_), arcs_note(all_, more_)})

@@ -13,7 +13,8 @@ enum class CautionKind : unsigned char {
     bare_words,    ///< numbers without a decimal point, 3401 not given
     unset_offset,  ///< H or D names an offset that nothing has set
     no_offset,     ///< G43 without any H, G41 without any D
-    open_arc       ///< the end of an arc is not on its circle, and 3410 compares nothing
+    open_arc,      ///< the end of an arc is not on its circle, and 3410 compares nothing
+    straight_arc   ///< G2 or G3 without R and centre: a straight line (3403#5 = 0)
 };
 
 struct Caution {
@@ -45,6 +46,7 @@ class Cautions {
     std::vector<Caution> all_, fresh_;
     std::set<std::pair<char, int>> offsets_;
     std::set<int> arc_lines_;
+    bool straight_told_ = false;
     std::size_t more_ = 0;  ///< arcs and offsets beyond those kept
 };
 

@@ -133,6 +133,7 @@ void queue_motion(const SortedWords& words, Modal& modal, const Frames& frames, 
     if (arc && !has_arc_words(words, plane) && modal.settings.arc_needs_centre) raise_alarm(22);
     cutter::PathMove move =
         straight_move(words, modal, frames, commanded_position(words, modal, frames));
+    if (arc && !has_arc_words(words, plane)) watch_straight_arc(words, modal, mover);
     if (arc && has_arc_words(words, plane))
         watch_arc(bend_to_arc(words, plane, arc_rule(modal), move.plane), move.plane, modal, mover);
     mover.queue(move);

@@ -49,6 +49,9 @@ TEST_CASE("an alarm behind an unknown condition is a warning, behind none an err
     CHECK(severity("M30\nN5#2=1/0") == check::Severity::note);
     CHECK(severity("IF[1/0GT#500]GOTO10") == check::Severity::error);
     CHECK(severity("G31X5.\n#2=1/0") == check::Severity::error);
+    CHECK(severity("G65P20A1.\n#2=1/0\nM30\nO20\nG91X1.\nM99\nO21") == check::Severity::error);
+    CHECK(severity("M98P20\n#2=1/0\nM30\nO20\nM30") == check::Severity::warning);
+    CHECK(severity("M98P20\n#2=1/0\nM30\nO20\nM99P10") == check::Severity::warning);
     CHECK(severity("#2=1/0") == check::Severity::error);
 }
 
@@ -107,9 +110,16 @@ TEST_CASE("an arc that is not closed is told alike by run and check", "[check]")
     const law::Outcome out = law::judge(head + "G0X0.Y0.Z0.\nG1X10.\n" + arc + "\nG40\nM30\n");
     INFO(arc);
     CHECK_FALSE(out.run.alarm);
-    CHECK(notes_contain(out, "not on its circle"));
+    CHECK(notes_contain(out, "off the circle"));
     REQUIRE(finding(out, "arc-radius"));
     CHECK(finding(out, "arc-radius")->severity == check::Severity::warning);
+}
+
+TEST_CASE("an arc without R and centre is told alike by run and check", "[check]") {
+    const std::string arc = GENERATE("G2X20.Y5.F9.", "G41D0\nG1X5.\nG2X20.Y5.");
+    const law::Outcome out = law::judge(head + arc + "\nG40\nM30\n");
+    CHECK(notes_contain(out, "a straight line"));
+    CHECK(finding(out, "arc-radius"));
 }
 
 TEST_CASE("an offset that nothing sets is told, one that the program sets is not", "[check]") {
