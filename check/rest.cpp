@@ -86,9 +86,10 @@ void add_cautions(Trial& trial, const CheckSection& section, const interpreter::
     }
 }
 
-void add_alarm(const Alarm& alarm, const CheckSection& section, const interpreter::Block& block,
-               const CheckOptions& options, Reach reach, Findings& findings) {
-    const int line = alarm.where.line > 0 ? alarm.where.line : block.line;
+void add_alarm(const Alarm& alarm, const CheckSection& section, ReachedBlock at,
+               const CheckOptions& options, Findings& findings) {
+    const Reach reach = at.reach;
+    const int line = alarm.where.line > 0 ? alarm.where.line : at.block.line;
     if (findings.has_error(line)) return;  // one finding for each cause
     Finding found;
     found.rule = "alarm";
@@ -234,7 +235,7 @@ void read_rest(const CheckSection& section, const CarriedOut& so_far, Trial& tri
             refuse_words(section, block, trial, options);
             add_cautions(trial, section, block, findings);
         } catch (const Alarm& alarm) {
-            add_alarm(alarm, section, block, options, reach, findings);
+            add_alarm(alarm, section, {block, reach}, options, findings);
         }
     }
 }

@@ -250,7 +250,7 @@ CarriedOut run_known(const CheckSection& section, const CheckOptions& options, T
         if (const auto alarm = trial.end()) throw *alarm;
     } catch (const Alarm& alarm) {
         add_cautions(trial, section, *block, findings);
-        add_alarm(alarm, section, *block, options, reach, findings);
+        add_alarm(alarm, section, {*block, reach}, options, findings);
         if (out.ended) return out;
         out.done[at] = true;
         ++at;

@@ -43,9 +43,14 @@ enum class Reach : unsigned char { certain, conditional, never, as_main };
 
 /// "PS0112 ZERO DIVIDE" and what the alarm's own text adds.
 std::string alarm_line(const Alarm& alarm, const CheckOptions& options);
+struct ReachedBlock {
+    const interpreter::Block& block;
+    Reach reach = Reach::certain;
+};
+
 /// The finding on an alarm of a block: an error, a warning or a note, by its reach.
-void add_alarm(const Alarm& alarm, const CheckSection& section, const interpreter::Block& block,
-               const CheckOptions& options, Reach reach, Findings& findings);
+void add_alarm(const Alarm& alarm, const CheckSection& section, ReachedBlock at,
+               const CheckOptions& options, Findings& findings);
 
 /// The findings on what the blocks since the last call do.
 void add_cautions(Trial& trial, const CheckSection& section, const interpreter::Block& block,

@@ -145,7 +145,7 @@ TEST_CASE("the first number without a point is noted, whichever word of its bloc
     }
     Bench b;
     b("G0 X0 Y0.;X1. Z-3.5");  // 0 is 0 in every unit
-    CHECK(b.control.mover.record().notes.empty());
+    CHECK(b.control.mover.record().cautions.notes().empty());
 }
 
 }  // namespace trunnion
