@@ -20,8 +20,8 @@ struct Plane {
 };
 constexpr Plane plane_xy{0, 1}, plane_zx{2, 0}, plane_yz{1, 2};
 
-/// Code times ten. G20, G21, G40, G43, G49, G61, G64, G80, G94 do not change position or plane.
-constexpr std::array harmless{200, 210, 400, 430, 490, 610, 640, 800, 940};
+/// Code times ten. G40, G43, G49, G61, G64, G80, G94 do not change position or plane.
+constexpr std::array harmless{400, 430, 490, 610, 640, 800, 940};
 /// Canned cycles cancel the motion mode.
 constexpr std::array cycles{730, 740, 760, 810, 820, 830, 840, 850, 860, 870, 880, 890};
 
@@ -72,6 +72,10 @@ class ArcCheck {
             set_plane(code == 170 ? plane_xy : code == 180 ? plane_zx : plane_yz);
         } else if (code == 900 || code == 910) {
             absolute_ = code == 900;
+        } else if (code == 200 || code == 210) {
+            const double unit_mm = code == 200 ? 25.4 : 1.0;
+            if (unit_mm != unit_mm_) forget_position();
+            unit_mm_ = unit_mm;
         } else if (std::find(harmless.begin(), harmless.end(), code) == harmless.end()) {
             if (std::find(cycles.begin(), cycles.end(), code) != cycles.end()) arc_ = -1;
             other = true;  // cycles, work offsets, rotation, polar words, reference moves, ...
@@ -111,15 +115,17 @@ class ArcCheck {
     /// Distance from the start along one axis of the plane; false when it is unknown.
     bool delta(const interpreter::Block& block, std::size_t axis, double& way) const {
         if (!has_word(block, std::string_view(&axis_letters[axis], 1))) return true;
-        const auto value = word_value(program_, block, axis_letters[axis]);
+        const auto value = length(block, axis_letters[axis]);
         if (!value) return false;
         way = *absolute_ ? *value - *position_[axis] : *value;
         return true;
     }
 
     void check_radius(const interpreter::Block& block, double chord) {
-        const auto radius = word_value(program_, block, 'R');
-        if (!radius || chord <= 2.0 * std::abs(*radius) + options_.arc_tolerance_mm) return;
+        const auto radius = length(block, 'R');
+        if (!radius || !options_.chord_exceeds ||
+            !options_.chord_exceeds(chord * unit_mm_, *radius * unit_mm_))
+            return;
         findings_.add(
             "arc-radius", Severity::error, {block, 1},
             fmt::format("the arc's ends are {:.4f} apart, more than twice R{:g}", chord, *radius),
@@ -132,7 +138,7 @@ class ArcCheck {
         bool any = false;
         for (int k = 0; k < 2; ++k) {
             if (!has_word(block, std::string_view(&centre_letters[axes[k]], 1))) continue;
-            const auto value = word_value(program_, block, centre_letters[axes[k]]);
+            const auto value = length(block, centre_letters[axes[k]]);
             if (!value) return;
             centre[k] = *value;
             any = true;
@@ -140,11 +146,24 @@ class ArcCheck {
         if (!any) return;
         const double at_start = std::hypot(centre[0], centre[1]);
         const double at_end = std::hypot(end_1 - centre[0], end_2 - centre[1]);
-        if (std::abs(at_start - at_end) <= options_.arc_tolerance_mm) return;
+        if (!options_.arc_fit) return;
+        const ArcFit fit = options_.arc_fit(at_start * unit_mm_, at_end * unit_mm_);
+        if (fit == ArcFit::good) return;
         findings_.add(
-            "arc-radius", Severity::error, {block, 1},
+            "arc-radius", fit == ArcFit::refused ? Severity::error : Severity::warning, {block, 1},
             fmt::format("radius {:.4f} at the arc's start and {:.4f} at its end", at_start, at_end),
             "Correct the end point or the centre (I, J, K from the start).");
+    }
+
+    /// In the unit of words with a decimal point.
+    std::optional<double> length(const interpreter::Block& block, char letter) const {
+        for (const interpreter::Item& item : program_.items(block)) {
+            if (item.kind != interpreter::ItemKind::word || item.letter != letter) continue;
+            const auto value = interpreter::constant_value(program_, item);
+            if (!value || options_.bare_is_unit || item.decimal_point) return value;
+            return *value * (unit_mm_ == 1.0 ? 1e-3 : 1e-4);
+        }
+        return std::nullopt;
     }
 
     bool has_word(const interpreter::Block& block, std::string_view letters) const {
@@ -158,7 +177,7 @@ class ArcCheck {
     void move(const interpreter::Block& block) {
         for (std::size_t k = 0; k < 3; ++k) {
             if (!has_word(block, std::string_view(&axis_letters[k], 1))) continue;
-            const auto value = word_value(program_, block, axis_letters[k]);
+            const auto value = length(block, axis_letters[k]);
             if (!value || !absolute_ || (!*absolute_ && !position_[k]))
                 position_[k].reset();
             else
@@ -181,6 +200,7 @@ class ArcCheck {
     std::optional<bool> absolute_;
     Plane plane_ = plane_xy;
     bool plane_named_ = false, plane_told_ = false;
+    double unit_mm_ = 1.0;
     int arc_ = -1;  ///< group 01: 0 1 2 3, -1 unknown
 };
 

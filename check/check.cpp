@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "check/section.h"
+#include "check/trial.h"
 #include "interpreter/alarms.h"
 #include "interpreter/line_scan.h"
 
@@ -24,6 +24,10 @@ const std::vector<CheckRule>& check_rules() {
         {"unknown-m", "An M code that passes without effect"},
         {"subprogram-missing", "A called program is nowhere"},
         {"arc-radius", "The arc's end is not on its circle"},
+        {"decimal-point", "A number without a decimal point, which controls read differently"},
+        {"offset", "A length or radius that nothing has set: 0 is used"},
+        {"program-end", "No M02, M30 or M99, or an M99 that starts the main program again"},
+        {"lower-case", "Small letters outside of comments"},
         {"arc-plane", "Arcs in a program that names no plane"},
         {"skip-compensation", "G31 while cutter compensation is on"},
         {"unreachable", "Blocks that never run"},
@@ -117,7 +121,8 @@ bool is_marker(std::string_view text) {
 }
 
 void add_faults(const interpreter::ParsedProgram& program,
-                const std::vector<CheckSection>& sections, Findings& findings) {
+                const std::vector<CheckSection>& sections, const CheckOptions& options,
+                Findings& findings) {
     for (const Alarm& fault : program.faults) {
         if (std::any_of(sections.begin(), sections.end(), [&](const CheckSection& section) {
                 return section.foreign && fault.where.line >= section.blocks.front()->line &&
@@ -130,7 +135,7 @@ void add_faults(const interpreter::ParsedProgram& program,
         f.column = std::max(1, fault.where.column);
         f.rule = is_marker(fault.block) ? "merge-marker" : "syntax";
         f.text = is_marker(fault.block) ? "a merge conflict was left in the file"
-                                        : fmt::format("alarm {} {}", fault.number, fault.text);
+                                        : alarm_line(fault, options);
         const interpreter::AlarmInfo* row = interpreter::language_alarm(fault.number);
         f.remedy = is_marker(fault.block) ? "Resolve the conflict and remove the markers."
                    : row != nullptr       ? row->remedy
@@ -174,7 +179,8 @@ std::vector<Finding> check_program(const interpreter::ProgramText& text,
     std::vector<CheckSection> sections = sections_of(program);
     for (CheckSection& section : sections)
         section.foreign = check_family(section, options, findings);
-    add_faults(program, sections, findings);
+    if (!sections.empty()) sections.front().may_start = may_start(sections.front());
+    add_faults(program, sections, options, findings);
     for (const CheckSection& section : sections) {
         if (section.foreign) continue;
         check_flow(section, findings);
@@ -184,6 +190,7 @@ std::vector<Finding> check_program(const interpreter::ProgramText& text,
         check_trial(section, options, findings);
     }
     check_calls(program, sections, options, findings);
+    check_ends(program, sections, options, findings);
     return findings.take();
 }
 

@@ -38,6 +38,11 @@ struct CheckRule {
 };
 const std::vector<CheckRule>& check_rules();
 
+/// What a block does without an alarm and what is seldom meant.
+struct Caution {
+    std::string rule, text, remedy;
+};
+
 /// Executes the words of blocks in order, like a run.
 class Trial {
   public:
@@ -50,6 +55,8 @@ class Trial {
     virtual std::optional<Alarm> end() = 0;
     /// Sets a system variable like a run.
     virtual std::optional<Alarm> assign(int number, double value, const std::string& comment) = 0;
+    /// Of the blocks since the last call.
+    virtual std::vector<Caution> cautions() = 0;
     /// How expressions are evaluated in the present state.
     virtual interpreter::EvaluationRules rules() const = 0;
 };
@@ -71,11 +78,20 @@ class TrialBy final : public Trial {
     std::optional<Alarm> assign(int number, double value, const std::string& comment) override {
         return blocks_.assign(number, value, comment);
     }
+    std::vector<Caution> cautions() override {
+        std::vector<Caution> out;
+        for (auto& told : blocks_.cautions())
+            out.push_back({told.rule, std::move(told.text), told.remedy});
+        return out;
+    }
     interpreter::EvaluationRules rules() const override { return blocks_.rules(); }
 
   private:
     Blocks blocks_;
 };
+
+/// `open`: the end is not on the circle, and the control does not compare.
+enum class ArcFit : unsigned char { good, open, refused };
 
 struct CheckOptions {
     interpreter::Dialect dialect;
@@ -107,7 +123,11 @@ struct CheckOptions {
     std::function<std::unique_ptr<Trial>()> start_trial;
     bool arc_centres_are_places = false;  ///< BNC: I J K are positions, not distances from the
                                           ///< start
-    double arc_tolerance_mm = 0.02;  ///< difference of the radii at start and end (parameter 3410)
+    bool bare_is_unit = true;             ///< X10 is 10 mm; false: ten least increments (3401#0)
+    /// How an arc with these radii at start and end fits. Empty: not checked.
+    std::function<ArcFit(double start_mm, double end_mm)> arc_fit;
+    /// True when the control refuses an R arc with this chord. Empty: not checked.
+    std::function<bool(double chord_mm, double radius_mm)> chord_exceeds;
 };
 
 /// All findings on one file, by line. Reports only what is certain: values that the program does

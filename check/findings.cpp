@@ -121,6 +121,12 @@ bool Findings::has_error(int line) const {
     });
 }
 
+bool Findings::has(const std::string& rule, int line) const {
+    return std::any_of(found_.begin(), found_.end(), [&](const Found& f) {
+        return f.finding.line == line && f.finding.rule == rule;
+    });
+}
+
 std::vector<Finding> Findings::take() {
     std::stable_sort(found_.begin(), found_.end(), [](const Found& a, const Found& b) {
         return a.finding.line != b.finding.line ? a.finding.line < b.finding.line

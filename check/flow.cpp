@@ -125,18 +125,6 @@ void check_statements(const CheckSection& section, Findings& findings) {
                      "Every DO needs its END with the same number, nested loops inside.");
 }
 
-/// True when the next block is reached by a jump only: unconditional GOTO, M30, M02, M99.
-bool leaves(const interpreter::ParsedProgram& program, const interpreter::Block& block) {
-    bool jump = false;
-    for (const interpreter::Item& item : program.items(block)) {
-        if (item.kind == interpreter::ItemKind::skip || item.kind == interpreter::ItemKind::if_goto)
-            return false;
-        jump = jump || item.kind == interpreter::ItemKind::go_to;
-    }
-    return jump || has_code(program, block, 'M', 300) || has_code(program, block, 'M', 20) ||
-           has_code(program, block, 'M', 990);
-}
-
 bool is_entered(const CheckSection& section, const interpreter::Block& block) {
     if (block.sequence_number >= 0 &&
         (section.computed_jump || section.targets.contains(block.sequence_number)))
@@ -169,22 +157,6 @@ void check_reach(const CheckSection& section, Findings& findings) {
     }
 }
 
-std::optional<int> called_program(const interpreter::ParsedProgram& program,
-                                  const interpreter::Block& block, int& column) {
-    const bool m98 = has_code(program, block, 'M', 980) || has_code(program, block, 'M', 1980);
-    const bool macro = has_code(program, block, 'G', 650) || has_code(program, block, 'G', 660) ||
-                       has_code(program, block, 'G', 661);
-    if (!m98 && !macro) return std::nullopt;
-    for (const interpreter::Item& item : program.items(block)) {
-        if (item.kind != interpreter::ItemKind::word || item.letter != 'P') continue;
-        const auto value = interpreter::constant_value(program, item);
-        if (!value || !interpreter::is_whole(*value)) return std::nullopt;
-        column = item.column;
-        return whole_of(std::round(*value));
-    }
-    return std::nullopt;
-}
-
 /// The programs of the file.
 struct OwnPrograms {
     const std::set<int>& numbers;
@@ -213,6 +185,33 @@ void check_named_call(const interpreter::ParsedProgram& program, const interpret
 }
 
 }  // namespace
+
+bool leaves(const interpreter::ParsedProgram& program, const interpreter::Block& block) {
+    bool jump = false;
+    for (const interpreter::Item& item : program.items(block)) {
+        if (item.kind == interpreter::ItemKind::skip || item.kind == interpreter::ItemKind::if_goto)
+            return false;
+        jump = jump || item.kind == interpreter::ItemKind::go_to;
+    }
+    return jump || has_code(program, block, 'M', 300) || has_code(program, block, 'M', 20) ||
+           has_code(program, block, 'M', 990);
+}
+
+std::optional<int> called_program(const interpreter::ParsedProgram& program,
+                                  const interpreter::Block& block, int& column) {
+    const bool m98 = has_code(program, block, 'M', 980) || has_code(program, block, 'M', 1980);
+    const bool macro = has_code(program, block, 'G', 650) || has_code(program, block, 'G', 660) ||
+                       has_code(program, block, 'G', 661);
+    if (!m98 && !macro) return std::nullopt;
+    for (const interpreter::Item& item : program.items(block)) {
+        if (item.kind != interpreter::ItemKind::word || item.letter != 'P') continue;
+        const auto value = interpreter::constant_value(program, item);
+        if (!value || !interpreter::is_whole(*value)) return std::nullopt;
+        column = item.column;
+        return whole_of(std::round(*value));
+    }
+    return std::nullopt;
+}
 
 void check_flow(const CheckSection& section, Findings& findings) {
     check_statements(section, findings);

@@ -27,6 +27,7 @@ struct CheckSection {
     bool computed_jump = false;  ///< a GOTO computes its target
     bool subprogram = false;     ///< ends with M99
     bool foreign = false;        ///< for a lathe or a Haas
+    bool may_start = false;      ///< first in the file, not called, no macro (from O8000) by custom
     int last_line = 0;           ///< before the next program
 };
 
@@ -40,6 +41,8 @@ std::optional<double> word_value(const interpreter::ParsedProgram& program,
 bool has_code(const interpreter::ParsedProgram& program, const interpreter::Block& block,
               char letter, int code10);
 int code10_of(double value);
+/// True when the next block is reached by a jump only: unconditional GOTO, M30, M02, M99.
+bool leaves(const interpreter::ParsedProgram& program, const interpreter::Block& block);
 
 /// Collects findings of one file.
 /// A word of a block: its column, from 1.
@@ -66,6 +69,7 @@ class Findings {
     void add(const char* rule, BlockPlace place, Numbered what, std::string remedy);
     /// True when there is already an error on this line.
     bool has_error(int line) const;
+    bool has(const std::string& rule, int line) const;
     /// Sorted by position; a finding repeated more than a few times is reported once with its
     /// number.
     std::vector<Finding> take();
@@ -80,6 +84,16 @@ class Findings {
     std::vector<Found> found_;
 };
 
+/// Number of the program that the block calls by M98, M198, G65, G66 with a constant P; `column`
+/// becomes that of P.
+std::optional<int> called_program(const interpreter::ParsedProgram& program,
+                                  const interpreter::Block& block, int& column);
+/// True for the first program of a file unless it is called in it or has the number of a macro.
+bool may_start(const CheckSection& section);
+/// Programs that do not end, or that start again; small letters.
+void check_ends(const interpreter::ParsedProgram& program,
+                const std::vector<CheckSection>& sections, const CheckOptions& options,
+                Findings& findings);
 void check_flow(const CheckSection& section, Findings& findings);
 void check_calls(const interpreter::ParsedProgram& program,
                  const std::vector<CheckSection>& sections, const CheckOptions& options,

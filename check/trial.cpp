@@ -1,8 +1,8 @@
 // Executes a main program as far as it is sequential and what it needs is known.
+#include "check/trial.h"
+
 #include <fmt/format.h>
 
-#include "check/section.h"
-#include "interpreter/known_values.h"
 #include "interpreter/print_output.h"
 #include "interpreter/word_rules.h"
 
@@ -14,41 +14,8 @@ using interpreter::Item;
 using interpreter::ItemKind;
 using interpreter::KnownValues;
 
-/// What follows a block: the next one, or nothing that is known.
-enum class Step { on, end, unknown };
-
-bool is_call(char letter, int code10, const CheckOptions& options) {
-    const bool own = letter == 'G' ? code10 == 650 || code10 == 660 || code10 == 661
-                                   : letter == 'M' && (code10 == 980 || code10 == 1980);
-    return own || (options.calls_program && options.calls_program(letter, code10));
-}
-
-/// The known words left for the control after the language has taken G67 and those of M98, M198 or
-/// M99; empty when the words are arguments or belong to a called program, or may do.
-std::optional<interpreter::BlockWords> left_for_control(const interpreter::BlockWords& all,
-                                                        const CheckOptions& options) {
-    const auto has_m = [&](double code) {
-        return std::any_of(all.begin(), all.end(), [code](const interpreter::WordValue& w) {
-            return w.letter == 'M' && !w.vacant && w.value == code;
-        });
-    };
-    const bool call = has_m(98.0) || has_m(198.0), back = has_m(99.0);
-    interpreter::BlockWords left = all;
-    left.count = 0;
-    for (const interpreter::WordValue& w : all) {
-        const bool code_word = w.letter == 'G' || w.letter == 'M';
-        if (w.vacant && code_word) return std::nullopt;
-        const int code = code10_of(w.value);
-        if (w.letter == 'G' && is_call('G', code, options)) return std::nullopt;
-        if (options.calls_program && options.calls_program(w.letter, code)) return std::nullopt;
-        const bool taken = w.letter == '<' || (w.letter == 'G' && code == 670) ||
-                           (w.letter == 'M' && (code == 980 || code == 1980 || code == 990)) ||
-                           ((back || call) && (w.letter == 'P' || w.letter == 'L')) ||
-                           (call && w.letter == 'Q');
-        if (!taken && !w.vacant) left.words[left.count++] = w;
-    }
-    return left;
-}
+/// What follows a block: the next one, the target of a jump, or nothing that is known.
+enum class Step { on, jump, end, unknown };
 
 /// The items that count with the setup's switches of block skip.
 std::span<const Item> items_in_use(const interpreter::ParsedProgram& program,
@@ -59,33 +26,6 @@ std::span<const Item> items_in_use(const interpreter::ParsedProgram& program,
             options.skip_switches[items[i].number])
             return items.first(i);
     return items;
-}
-
-/// Of a constant word or an expression. Throws Alarm.
-std::optional<double> value_of(const interpreter::ParsedProgram& program, const Item& item,
-                               const KnownValues& known) {
-    if (item.a.count == 0) return item.value;
-    const auto value = known.value(program.expression(item.a));
-    if (value && item.kind == ItemKind::go_to && !(*value > 0.0))
-        throw Alarm(128, "", {"", 0, item.column});
-    return value && item.negative ? -*value : value;
-}
-
-std::optional<int> target_of(const interpreter::ParsedProgram& program, const Item& item,
-                             const KnownValues& known) {
-    if (item.b.count == 0) return static_cast<int>(item.value);
-    return known.target(program.expression(item.b), item.column);
-}
-
-/// Where an alarm has no column of its own, that of the item.
-template <typename Work>
-void at_column(const Item& item, Work work) {
-    try {
-        work();
-    } catch (Alarm& alarm) {
-        if (alarm.where.column == 0) alarm.where.column = item.column;
-        throw;
-    }
 }
 
 std::string comment_of(const interpreter::ParsedProgram& program, const interpreter::Block& block) {
@@ -102,12 +42,16 @@ std::string comment_of(const interpreter::ParsedProgram& program, const interpre
 class SequentialRun {
   public:
     SequentialRun(const CheckSection& section, const CheckOptions& options, Trial& trial)
-        : program_(*section.program),
+        : section_(section),
+          program_(*section.program),
           options_(options),
           trial_(trial),
           known_(options.dialect.has_98000, [this](int number) {
               return options_.variable_alarm ? options_.variable_alarm(number, false) : 0;
           }) {}
+
+    /// Where the last jump goes.
+    const interpreter::Block* target() const { return target_; }
 
     /// Throws the alarm with which a run stops at this block.
     Step run(const interpreter::Block& block) {
@@ -144,10 +88,21 @@ class SequentialRun {
                     if (*condition == 0.0 || interpreter::is_vacant(*condition)) return Step::on;
                     break;
                 }
+                case ItemKind::go_to: return go_to(item);
                 default: value_of(program_, item, known_); return Step::unknown;
             }
         }
         return Step::on;
+    }
+
+    /// A number that stands once in the program; of several a run takes the next one.
+    Step go_to(const Item& item) {
+        const auto number = value_of(program_, item, known_);
+        if (!number || !interpreter::is_whole(*number)) return Step::unknown;
+        const auto found = section_.numbered.find(whole_of(*number));
+        if (found == section_.numbered.end() || found->second.size() != 1) return Step::unknown;
+        target_ = found->second.front();
+        return Step::jump;
     }
 
     /// After IF .. THEN #n= .. the variable is unknown; a jump leads somewhere unknown.
@@ -253,81 +208,54 @@ class SequentialRun {
                });
     }
 
+    const CheckSection& section_;
     const interpreter::ParsedProgram& program_;
     const CheckOptions& options_;
     Trial& trial_;
     KnownValues known_;
+    const interpreter::Block* target_ = nullptr;
 };
 
-void add_alarm(const Alarm& alarm, const CheckSection& section, const interpreter::Block& block,
-               const CheckOptions& options, Findings& findings) {
-    const int line = alarm.where.line > 0 ? alarm.where.line : block.line;
-    if (findings.has_error(line)) return;  // one finding for each cause
-    Finding found;
-    found.rule = "alarm";
-    found.path = section.program->source.name;
-    found.line = line;
-    found.column = std::max(1, alarm.where.column);
-    const std::string title = options.alarm_text ? options.alarm_text(alarm.number)
-                                                 : fmt::format("alarm {}", alarm.number);
-    // The text of the alarm without its number: "+ OVERTRAVEL ( SOFT 1 ) X".
-    const std::string text = title.substr(std::min(title.size(), title.find(' ') + 1));
-    found.text = "a run stops here: " + title;
-    if (alarm.text.starts_with(text)) found.text += alarm.text.substr(text.size());
-    found.remedy = "Correct the block, or the state in which it is reached.";
-    findings.add(std::move(found));
+/// Blocks that a program with jumps may take beyond its length: a loop may have no end.
+constexpr std::size_t most_more = 10'000;
+
+std::size_t index_of(const CheckSection& section, const interpreter::Block* block) {
+    return static_cast<std::size_t>(
+        std::lower_bound(section.blocks.begin(), section.blocks.end(), block) -
+        section.blocks.begin());
 }
 
-/// The same of a block whose words are not all known.
-std::optional<ConstantWords> words_for_control(const interpreter::ParsedProgram& program,
-                                               const interpreter::Block& block,
-                                               const CheckOptions& options) {
-    if (block.kind == interpreter::BlockKind::statements) return std::nullopt;
-    auto out = constant_words(program, block);
-    if (!out) return std::nullopt;
-    const auto left = left_for_control(out->words, options);
-    if (!left) return std::nullopt;
-    out->words = *left;
-    return out;
-}
-
-/// Throws an alarm that the block's expressions raise whatever the variables hold.
-void evaluate_all(const interpreter::ParsedProgram& program, const interpreter::Block& block,
-                  const CheckOptions& options) {
-    KnownValues known(options.dialect.has_98000, [&](int number) {
-        return options.variable_alarm ? options.variable_alarm(number, false) : 0;
-    });
-    for (const Item& item : program.items(block)) {
-        if (item.kind == ItemKind::skip || item.kind == ItemKind::print_text) continue;
-        value_of(program, item, known);
-        if (item.kind != ItemKind::assign || item.b.count == 0) continue;
-        const auto number = target_of(program, item, known);
-        if (!number) continue;
-        if (known.owns(*number)) at_column(item, [&] { known.set(*number, std::nullopt); });
-        const int alarm = known.owns(*number) || !options.variable_alarm
-                              ? 0
-                              : options.variable_alarm(*number, true);
-        if (alarm != 0) throw Alarm(alarm, "", {"", 0, item.column});
-    }
-}
-
-/// After the sequential part, and in subprograms: checks of the words alone.
-void read_on(const CheckSection& section, std::size_t from, Trial& trial,
-             const CheckOptions& options, Findings& findings) {
-    for (std::size_t i = from; i < section.blocks.size(); ++i) {
-        const interpreter::Block& block = *section.blocks[i];
-        try {
-            if (block.kind != interpreter::BlockKind::words)
-                evaluate_all(*section.program, block, options);
-            const auto words = words_for_control(*section.program, block, options);
-            if (!words || words->words.count == 0) continue;
-            const auto alarm = trial.read(words->words);
-            // Without a column a word is missing: it may be one that is not known.
-            if (alarm && (words->all || alarm->where.column > 0)) throw *alarm;
-        } catch (const Alarm& alarm) {
-            add_alarm(alarm, section, block, options, findings);
+/// Carries out blocks as long as the next one is known.
+CarriedOut run_known(const CheckSection& section, const CheckOptions& options, Trial& trial,
+                     Reach reach, Findings& findings) {
+    SequentialRun sequence(section, options, trial);
+    CarriedOut out;
+    out.done.resize(section.blocks.size());
+    std::size_t& at = out.stopped_at;
+    const interpreter::Block* block = nullptr;
+    Step step = Step::on;
+    try {
+        for (std::size_t left = section.blocks.size() + most_more;
+             at < section.blocks.size() && step != Step::end; --left) {
+            out.lost = left == 0;
+            block = section.blocks[at];
+            if (!out.lost) step = sequence.run(*block);
+            if (out.lost || step == Step::unknown) return out;
+            add_cautions(trial, section, *block, findings);
+            out.done[at] = true;
+            at = step == Step::jump ? index_of(section, sequence.target()) : at + 1;
         }
+        out.ended = true;
+        if (step == Step::end || !block) return out;
+        if (const auto alarm = trial.end()) throw *alarm;
+    } catch (const Alarm& alarm) {
+        add_cautions(trial, section, *block, findings);
+        add_alarm(alarm, section, {*block, reach}, options, findings);
+        if (out.ended) return out;
+        out.done[at] = true;
+        ++at;
     }
+    return out;
 }
 
 }  // namespace
@@ -335,24 +263,12 @@ void read_on(const CheckSection& section, std::size_t from, Trial& trial,
 void check_trial(const CheckSection& section, const CheckOptions& options, Findings& findings) {
     if (!options.start_trial) return;
     const auto trial = options.start_trial();
-    SequentialRun sequence(section, options, *trial);
-    std::size_t at = 0;
-    Step step = section.subprogram ? Step::unknown : Step::on;
-    while (step == Step::on && at < section.blocks.size()) {
-        const interpreter::Block& block = *section.blocks[at];
-        try {
-            step = sequence.run(block);
-            if (step != Step::unknown) ++at;
-        } catch (const Alarm& alarm) {
-            add_alarm(alarm, section, block, options, findings);
-            step = Step::unknown;
-            ++at;
-        }
-    }
-    if (at < section.blocks.size()) return read_on(section, at, *trial, options, findings);
-    if (section.subprogram || section.blocks.empty() || step != Step::on) return;
-    if (const auto alarm = trial->end())
-        add_alarm(*alarm, section, *section.blocks.back(), options, findings);
+    CarriedOut so_far{std::vector<bool>(section.blocks.size()), 0, false, false};
+    if (!section.subprogram) so_far = run_known(section, options, *trial, Reach::certain, findings);
+    read_rest(section, so_far, *trial, options, findings);
+    if (!section.subprogram || !section.may_start) return;
+    const auto started = options.start_trial();
+    run_known(section, options, *started, Reach::as_main, findings);
 }
 
 }  // namespace trunnion::check

@@ -32,6 +32,7 @@
 #include "cli/notes.h"
 #include "cli/options.h"
 #include "cli/page_options.h"
+#include "emulator/run.h"
 
 namespace trunnion::cli {
 
@@ -76,9 +77,7 @@ void add_commands(CLI::App& app, Run& run, const std::vector<std::string>& words
 }
 
 int report_alarm(const Alarm& alarm) {
-    print_error("{}\n",
-                format_diagnostic(alarm.where, fmt::format("alarm {} {}", alarm.number, alarm.text),
-                                  alarm.block));
+    print_error("{}\n", format_diagnostic(alarm.where, emulator::title_of(alarm), alarm.block));
     return exit_alarm;
 }
 

@@ -123,9 +123,7 @@ int exit_code(const emulator::RunLog& log) {
         return report_limit(log.limit, result.blocks);
     if (!result.alarm) return exit_done;
     const Alarm& alarm = *result.alarm;
-    print_error("{}\n",
-                format_diagnostic(alarm.where, fmt::format("alarm {} {}", alarm.number, alarm.text),
-                                  alarm.block));
+    print_error("{}\n", format_diagnostic(alarm.where, emulator::title_of(alarm), alarm.block));
     return exit_alarm;
 }
 

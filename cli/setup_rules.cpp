@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "controller/alarms.h"
+#include "controller/arcs.h"
 #include "controller/block_trial.h"
 #include "controller/code_calls.h"
 #include "controller/g_codes.h"
@@ -87,6 +88,19 @@ check::CheckOptions SetupRules::options() {
             known->second = trunnion::controller::variable_alarm(
                 number, writes, emulator::control_config(setup_), setup_.stores);
         return known->second;
+    };
+    const auto bare = setup_.stores.parameters.find(3401);
+    out.bare_is_unit = !bare || setup_.stores.parameters.bit(3401, 0);
+    const double tolerance_mm = setup_.stores.parameters.get(3410);
+    out.arc_fit = [tolerance_mm](double start_mm, double end_mm) {
+        switch (controller::fit_of_radii(start_mm, end_mm, tolerance_mm)) {
+            case controller::ArcFit::open: return check::ArcFit::open;
+            case controller::ArcFit::refused: return check::ArcFit::refused;
+            default: return check::ArcFit::good;
+        }
+    };
+    out.chord_exceeds = [tolerance_mm](double chord_mm, double radius_mm) {
+        return controller::chord_exceeds(chord_mm, radius_mm, tolerance_mm);
     };
     out.skip_switches = emulator::control_config(setup_).skip_switches;
     out.start_trial = [this] {

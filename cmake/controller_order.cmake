@@ -5,7 +5,7 @@ set(TRUNNION_CONTROLLER_ORDER
   modal_groups g_codes missing_codes builder_profile clamp hurco_choices control_alarms alarms control_config run_result
   code_calls
   # the words of a block, what is in force
-  sorted_words settings hurco_codes modal run_record surface_speed word_sorting
+  sorted_words settings hurco_codes modal cautions run_record surface_speed word_sorting
   # where the control stands
   coordinates frames commanded
   # what takes a path to the axes

@@ -12,6 +12,15 @@ struct ArcRule {
                                    ///< start (BNC)
     double tolerance_mm = 0.0;     ///< 3410; 0: start and end radius are not compared
 };
+/// What becomes of an arc whose radii at start and end, mm, differ.
+enum class ArcFit : unsigned char {
+    good,
+    open,    ///< carried out although it is seldom meant: 3410 compares nothing
+    refused  ///< PS0020
+};
+ArcFit fit_of_radii(double start_mm, double end_mm, double tolerance_mm);
+/// True when the chord is too long for the radius of an R arc: PS0020. All mm.
+bool chord_exceeds(double chord_mm, double radius_mm, double tolerance_mm);
 /// Rule of the active G2 or G3, and 3410.
 ArcRule arc_rule(const Modal& modal);
 
@@ -26,10 +35,14 @@ void check_arc_words(const SortedWords& words, const Modal& modal);
 bool has_arc_words(const SortedWords& words, const motion::PlaneAxes& plane);
 /// Converts `figure`, a line of the plane, into the arc commanded by R or by the centre words. R
 /// has priority over I J K; R with equal end points leaves a line. PS0020 when the points are too
-/// far apart or the radii differ too much, PS0022 for R0.
-void bend_to_arc(const SortedWords& words, const motion::PlaneAxes& plane, const ArcRule& rule,
-                 PlaneElement& figure);
+/// far apart or the radii differ too much, PS0022 for R0. Returns how the end fits.
+ArcFit bend_to_arc(const SortedWords& words, const motion::PlaneAxes& plane, const ArcRule& rule,
+                   PlaneElement& figure);
+/// Tells an end that is not on the circle.
+void watch_arc(ArcFit fit, const PlaneElement& figure, const Modal& modal, Mover& mover);
 
+/// Tells an arc without R and centre.
+void watch_straight_arc(const SortedWords& words, const Modal& modal, Mover& mover);
 /// Executes the arc commanded by this block.
 void move_arc_block(const SortedWords& words, Modal& modal, const Frames& frames, Mover& mover);
 

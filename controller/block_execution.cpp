@@ -49,9 +49,7 @@ void note_bare_words(const SortedWords& w, Modal& modal, Mover& mover) {
     for (const ControlAxis& axis : modal.settings.axes) {
         const char letter = letter_of(axis.axis);
         if (!w.has(letter) || !w.is_bare(letter) || w.get(letter) == 0.0) continue;
-        mover.note(
-            "numbers without a decimal point are read as whole units (parameter 3401 is not "
-            "given; with 3401#0 = 0 they would be least increments)");
+        mover.caution({.kind = CautionKind::bare_words, .line = modal.block.line});
         modal.settings.bare_is_noted = false;
         return;
     }
@@ -133,7 +131,10 @@ void set_motion_code(const SortedWords& w, Modal& modal) {
 }
 
 void take_numbers(Control& c) {
-    if (!words_of_builder(c.words)) take_radius_number(c.words, c.modal, c.frames);
+    if (words_of_builder(c.words)) return;
+    take_radius_number(c.words, c.modal, c.frames);
+    if (c.words.has('D') && !c.modal.cutter_is_off())
+        watch_radius(c.words, c.modal, c.frames, c.mover);
 }
 
 /// Everything that acts before the motion of the block.
@@ -208,6 +209,8 @@ void execute(Control& c, const interpreter::BlockWords& block) {
 
 void read_block(Control& c, const interpreter::BlockWords& block) {
     sort_words(block, c.modal, c.words);
+    c.modal.block.line = block.line;
+    if (c.words.bare) note_bare_words(c.words, c.modal, c.mover);
     take_numbers(c);
 }
 

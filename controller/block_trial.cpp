@@ -55,6 +55,13 @@ std::optional<Alarm> BlockTrial::assign(int number, double value, const std::str
     return alarm_of([&] { state_->variables.set(number, value, comment.c_str()); });
 }
 
+std::vector<ToldCaution> BlockTrial::cautions() {
+    std::vector<ToldCaution> out;
+    for (const Caution& caution : state_->control.mover.record().cautions.take())
+        out.push_back(told(caution));
+    return out;
+}
+
 interpreter::EvaluationRules BlockTrial::rules() const {
     interpreter::EvaluationRules rules;
     rules.signed_angles = state_->control.stores.parameters.bit(6004, 0);

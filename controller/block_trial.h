@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/alarm.h"
+#include "controller/cautions.h"
 #include "controller/control_config.h"
 #include "interpreter/block_words.h"
 #include "interpreter/evaluate.h"
@@ -27,6 +28,8 @@ class BlockTrial {
     std::optional<Alarm> end();
     /// Sets a system variable.
     std::optional<Alarm> assign(int number, double value, const std::string& comment);
+    /// What the blocks since the last call do that is seldom meant.
+    std::vector<ToldCaution> cautions();
     /// How expressions are evaluated in the present state.
     interpreter::EvaluationRules rules() const;
 

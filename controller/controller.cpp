@@ -113,15 +113,41 @@ void Controller::State::place_alarm(Alarm& alarm, const Program& program) {
     alarm.block = here ? language.block_text() : line_of(alarm.where, program);
 }
 
+namespace {
+
+/// What a control takes otherwise in the text of the main program and at its end.
+void note_text(const interpreter::ProgramText& program, RunRecord& record) {
+    const auto place = interpreter::first_small_letter(program.text);
+    if (place)
+        record.note("small letters are read as capitals (first in line " +
+                    std::to_string(place->line) + "); a control may not take them");
+}
+void note_text(int, RunRecord&) {}
+
+void note_end(interpreter::MainEnd end, bool hurco, RunRecord& record) {
+    if (end == interpreter::MainEnd::returned)
+        record.note(
+            "M99 in the main program starts it again without end on a control; the run stops after "
+            "the first pass");
+    if (end == interpreter::MainEnd::out_of_text)
+        record.note(hurco ? "the program ends without M02 or M30"
+                          : "the program ends without M02, M30 or M99: a Fanuc stops there with "
+                            "alarm 5010 END OF RECORD");
+}
+
+}  // namespace
+
 template <typename Program>
 RunResult Controller::State::run(const Program& program) {
     RunResult result;
     start_run();
+    note_text(program, control.mover.record());
     if (watch) watch(control);
     try {
         language.open(program);
         run_blocks();
         control.mover.cutter.flush();
+        note_end(language.main_end(), control.modal.settings.is_hurco(), control.mover.record());
         if (language.limit_reached()) result.status = RunStatus::limit;
     } catch (Alarm& alarm) {
         place_alarm(alarm, program);
@@ -139,6 +165,7 @@ void Controller::State::finish(RunResult& result) {
     result.time_s = record.time_s;
     result.path_mm = record.path_mm;
     result.notes = record.notes;
+    for (std::string& note : record.cautions.notes()) result.notes.push_back(std::move(note));
     result.turned_starts = record.turned_starts;
     result.reads_skip = variables.reads_skip();
     result.blocks = language.blocks_executed();

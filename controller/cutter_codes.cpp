@@ -78,6 +78,23 @@ void take_radius_number(const SortedWords& words, Modal& modal, const Frames& fr
     modal.number.radius = number;
 }
 
+void watch_radius(const SortedWords& words, const Modal& modal, const Frames& frames,
+                  Mover& mover) {
+    const int number = modal.number.radius;
+    if (number == 0) {
+        if (!words.has('D'))
+            mover.caution(
+                {.kind = CautionKind::no_offset, .line = modal.block.line, .letter = 'D'});
+        return;
+    }
+    const offsets::ToolOffset& tool = frames.stores().tools.tool[static_cast<std::size_t>(number)];
+    if (tool.radius_mm() == 0.0 && !tool.radius_given)
+        mover.caution({.kind = CautionKind::unset_offset,
+                       .line = modal.block.line,
+                       .letter = 'D',
+                       .number = number});
+}
+
 void set_cutter(const SortedWords& words, Modal& modal, const Frames& frames, Mover& mover,
                 int code10) {
     refuse_vector_in_space(words, modal);
@@ -85,6 +102,7 @@ void set_cutter(const SortedWords& words, Modal& modal, const Frames& frames, Mo
     const bool changes = modal.cutter_is_off() == on;
     if (is_round(modal) && changes && !alone) raise_alarm(34);
     if (on) {
+        watch_radius(words, modal, frames, mover);
         mover.cutter.start(frames.program, alone);
     } else {
         std::optional<cutter::PathMove> back;
@@ -115,7 +133,9 @@ void queue_motion(const SortedWords& words, Modal& modal, const Frames& frames, 
     if (arc && !has_arc_words(words, plane) && modal.settings.arc_needs_centre) raise_alarm(22);
     cutter::PathMove move =
         straight_move(words, modal, frames, commanded_position(words, modal, frames));
-    if (arc && has_arc_words(words, plane)) bend_to_arc(words, plane, arc_rule(modal), move.plane);
+    if (arc && !has_arc_words(words, plane)) watch_straight_arc(words, modal, mover);
+    if (arc && has_arc_words(words, plane))
+        watch_arc(bend_to_arc(words, plane, arc_rule(modal), move.plane), move.plane, modal, mover);
     mover.queue(move);
 }
 

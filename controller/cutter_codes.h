@@ -10,6 +10,8 @@ namespace trunnion::controller {
 /// D is modal and needs no code in its block; its radius counts from the next side on. PS0030 for
 /// an offset number that does not exist.
 void take_radius_number(const SortedWords& words, Modal& modal, const Frames& frames);
+/// Tells a radius of 0 that nothing has set.
+void watch_radius(const SortedWords& words, const Modal& modal, const Frames& frames, Mover& mover);
 /// G40, G41, G42. PS0034 in an arc block.
 void set_cutter(const SortedWords& words, Modal& modal, const Frames& frames, Mover& mover,
                 int code10);

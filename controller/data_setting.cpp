@@ -48,7 +48,9 @@ void set_tool_offset(const SortedWords& words, const Modal& modal, offsets::Tool
                      int l) {
     const int p = p_word(words, 1, tools.tool.size() - 1);
     if (!words.has('R')) raise_alarm(32);
-    double& value = tool_value(tools.tool[static_cast<std::size_t>(p)], l);
+    offsets::ToolOffset& tool = tools.tool[static_cast<std::size_t>(p)];
+    (l == 10 || l == 11 ? tool.length_given : tool.radius_given) = true;
+    double& value = tool_value(tool, l);
     value = (modal.absolute() ? 0.0 : value) + words.length_mm('R');
     if (value > 9999.0 || value < -9999.0) raise_alarm(32, words.column_of('R'));
 }

@@ -19,6 +19,7 @@ class Mover : private cutter::PathReceiver {
 
     RunRecord& record() { return axes.record; }
     void note(std::string text) { axes.record.note(std::move(text)); }
+    void caution(const Caution& caution) { axes.record.cautions.add(caution); }
 
     /// A straight move (G0, G1, G31) or an arc of the tip to a program position; sent immediately.
     motion::MoveResult line(motion::MotionKind kind, const offsets::ControlPosition& target);

@@ -11,6 +11,7 @@ namespace {
 struct Place {
     double* value = nullptr;
     bool length = true;  ///< in mm: read and written in the active unit
+    bool* given = nullptr;
 };
 
 /// Tool offsets, memory C. Rows quoted from memory; 6000#3 V15 exchanges wear and geometry. D
@@ -36,7 +37,10 @@ Place tool_place(const ControlSettings& settings, offsets::ToolOffsets& tools, i
         const int n = number - range.first + 1;
         if (n < 1 || n > range.count || n >= static_cast<int>(tools.tool.size())) continue;
         const auto field = settings.wear_first ? range.v15_order : range.wear_order;
-        return {&(tools.tool[static_cast<std::size_t>(n)].*field), true};
+        offsets::ToolOffset& tool = tools.tool[static_cast<std::size_t>(n)];
+        const bool of_length = field == &offsets::ToolOffset::length_wear_mm ||
+                               field == &offsets::ToolOffset::length_geometry_mm;
+        return {&(tool.*field), true, of_length ? &tool.length_given : &tool.radius_given};
     }
     return {};
 }
@@ -120,6 +124,7 @@ bool set_offset_variable(int number, double value, const Modal& modal, Frames& f
     const Place place = place_of(number, modal.settings, frames.stores());
     if (!place.value) return false;
     *place.value = place.length ? value * modal.units.unit_mm : value;
+    if (place.given) *place.given = true;
     if (number >= 5521 && number < 5681)
         fixture_sets_changed(modal, frames, mover);
     else if ((number >= 5201 && number <= 8000) || number >= 14001 ||

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "controller/cautions.h"
 #include "controller/run_result.h"
 
 namespace trunnion::controller {
@@ -17,6 +18,7 @@ struct RunRecord {
     std::vector<std::string> notes;
     std::set<std::string, std::less<>> noted;
     std::vector<TurnedStart> turned_starts;
+    Cautions cautions;
 
     /// Adds a line to the notes unless it is already there.
     void note(std::string text) {

@@ -56,6 +56,7 @@ void start_tool_centre(const SortedWords& words, Modal& modal, Frames& frames, M
     if (words.has('H')) modal.number.length = words.whole('H');
     cancel_tool_centre(frames, mover);
     const ToolVector tool = along_tool(words, modal, frames, transform);
+    watch_length(words, modal, frames, mover);
     modal.codes.set(ModalGroup::length, code.code10);
     apply_tool_length(tool, modal, frames, mover);
     frames.tip.by_vector = by_vector;
@@ -90,6 +91,7 @@ void change_length_number(const SortedWords& words, Modal& modal, Frames& frames
     if (!frames.tip.in_force) return;
     motion::ToolCentrePoint& tcp = *frames.tip.in_force;
     const ToolVector tool = along_tool(words, modal, frames, *tcp.transform);
+    watch_length(words, modal, frames, mover);
     tcp.tool_vector_mm = tool.vector_mm;
     apply_tool_length(tool, modal, frames, mover);
 }

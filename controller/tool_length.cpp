@@ -42,6 +42,23 @@ double tool_length_mm(const SortedWords& words, const offsets::ToolOffsets& tool
     return number == 0 ? 0.0 : tools.tool[static_cast<std::size_t>(number)].length_mm();
 }
 
+void watch_length(const SortedWords& words, const Modal& modal, const Frames& frames,
+                  Mover& mover) {
+    const int number = modal.number.length;
+    if (number == 0) {
+        if (!words.has('H'))
+            mover.caution(
+                {.kind = CautionKind::no_offset, .line = modal.block.line, .letter = 'H'});
+        return;
+    }
+    const offsets::ToolOffset& tool = frames.stores().tools.tool[static_cast<std::size_t>(number)];
+    if (tool.length_mm() == 0.0 && !tool.length_given)
+        mover.caution({.kind = CautionKind::unset_offset,
+                       .line = modal.block.line,
+                       .letter = 'H',
+                       .number = number});
+}
+
 void apply_tool_length(const ToolVector& tool, const Modal& modal, Frames& frames, Mover& mover) {
     frames.tool = tool;
     offsets::ControlPosition length;
@@ -69,6 +86,7 @@ void set_tool_length(const SortedWords& words, Modal& modal, Frames& frames, Mov
         length =
             length_along(length_axis(words, modal),
                          sign * tool_length_mm(words, frames.stores().tools, modal.number.length));
+        watch_length(words, modal, frames, mover);
     }
     frames.tool = {offsets::xyz_of(length), on ? modal.number.length : 0};
     if (frames.tip.in_force) frames.tip.in_force->tool_vector_mm = frames.tool.vector_mm;

@@ -12,6 +12,8 @@ void set_tool_length(const SortedWords& words, Modal& modal, Frames& frames, Mov
 /// Geometry + wear of offset number H in mm; 0 for H0. PS0030 at the word H when the number does
 /// not exist.
 double tool_length_mm(const SortedWords& words, const offsets::ToolOffsets& tools, int number);
+/// Tells a length of 0 that nothing has set.
+void watch_length(const SortedWords& words, const Modal& modal, const Frames& frames, Mover& mover);
 /// Activates the tool's length (`vector_mm`: tip to gauge point, rotary axes at zero). With 5006#6
 /// = 0 the program position is kept and the axis moves by the change in this block; otherwise the
 /// position shifts without motion.

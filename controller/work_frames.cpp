@@ -21,7 +21,7 @@ void set_work_offset(const SortedWords& words, Modal& modal, Frames& frames, Mov
         const int most = static_cast<int>(frames.stores().work.additional.size());
         number = words.whole('P');
         if (number < 1 || number > most)
-            raise_alarm(31, fmt::format("(G54.1: P is 1 to {})", most), words.column_of('P'));
+            raise_alarm(30, fmt::format("(G54.1: P is 1 to {})", most), words.column_of('P'));
     }
     modal.number.work = number;
     modal.codes.set(ModalGroup::work_offset, additional ? 541 : code10);

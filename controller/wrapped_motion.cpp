@@ -107,9 +107,10 @@ class CylinderCurve : public FigureCurve {
 
 /// A line or arc between two points of a plane, with its centre words.
 PlaneElement figure_of(const SortedWords& words, const Modal& modal,
-                       const motion::PlaneAxes& letters, PlaneElement figure) {
+                       const motion::PlaneAxes& letters, PlaneElement figure, Mover& mover) {
     const int code = modal.codes[ModalGroup::motion];
-    if (code == 20 || code == 30) bend_to_arc(words, letters, arc_rule(modal), figure);
+    if (code == 20 || code == 30)
+        watch_arc(bend_to_arc(words, letters, arc_rule(modal), figure), figure, modal, mover);
     return figure;
 }
 
@@ -182,7 +183,7 @@ void WrappedMotion::move_polar(SortedWords& words, Modal& modal, const Frames& f
     read(x_word, figure.end.x);
     read(y_word, figure.end.y);
     words.present &= ~(SortedWords::bit(x_word) | SortedWords::bit(y_word));
-    figure = figure_of(words, modal, motion::plane_xy, figure);
+    figure = figure_of(words, modal, motion::plane_xy, figure, mover);
     offsets::ControlPosition target = commanded_position(words, modal, frames);
     const double turned = PolarCurve(figure, frames.axes, frames.axes, polar).turned(1.0);
     target[polar.linear] += length_of(figure.end) - length_of(figure.start);
@@ -231,7 +232,7 @@ void WrappedMotion::move_cylinder_arc(const SortedWords& words, Modal& modal, co
     PlaneElement figure;
     figure.start = {unrolled(frames.program, plane.first), unrolled(frames.program, plane.second)};
     figure.end = {unrolled(target, plane.first), unrolled(target, plane.second)};
-    figure = figure_of(words, modal, plane, figure);
+    figure = figure_of(words, modal, plane, figure, mover);
     const offsets::ControlPosition machine = frames.stages.machine_from_program(target);
     const AxisPositions from = frames.axes, to = offsets::axis_positions_of(machine);
     const CylinderCurve curve(figure, from, to, plane, cylinder_->radius_mm);

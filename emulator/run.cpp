@@ -1,5 +1,6 @@
 #include "emulator/run.h"
 
+#include "controller/alarms.h"
 #include "emulator/machine_sink.h"
 #include "emulator/measure_station.h"
 #include "setup/control_axes.h"
@@ -104,6 +105,10 @@ RunLog run_program(const setup::Setup& setup, interpreter::ProgramSource& progra
     log.notes = log.result.notes;
     append(log.notes, sink.take_notes());
     return log;
+}
+
+std::string title_of(const Alarm& alarm) {
+    return controller::alarm_title(alarm.number, alarm.text);
 }
 
 }  // namespace trunnion::emulator

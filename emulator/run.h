@@ -55,6 +55,9 @@ using ProgramChoice = std::variant<interpreter::ProgramText, int>;
 RunLog run_program(const setup::Setup& setup, interpreter::ProgramSource& programs,
                    const ProgramChoice& program, const RunOptions& options);
 
+/// "PS0010 IMPROPER G-CODE", as on the control's screen.
+std::string title_of(const Alarm& alarm);
+
 /// The control's knowledge of the machine's axes.
 controller::ControlConfig control_config(const setup::Setup& setup);
 

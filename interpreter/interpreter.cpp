@@ -97,5 +97,8 @@ void Interpreter::set_increment_digits(int digits) {
 bool Interpreter::limit_reached() const {
     return state_->limit;
 }
+MainEnd Interpreter::main_end() const {
+    return state_->main_end;
+}
 
 }  // namespace trunnion::interpreter

@@ -50,6 +50,13 @@ struct InterpreterOptions {
                                 ///< it for ever
 };
 
+/// How the main program ended.
+enum class MainEnd : unsigned char {
+    other,       ///< by M02, M30, an alarm or a limit
+    returned,    ///< M99: a control starts it again
+    out_of_text  ///< neither M02, M30 nor M99
+};
+
 /// One program run, block by block.
 ///
 ///     Interpreter nc(source, options, system, print);
@@ -97,6 +104,7 @@ class Interpreter {
     /// Decimal places of the least input increment (G20 on IS-B: 4), for ROUND in a word.
     void set_increment_digits(int digits);
     bool limit_reached() const;
+    MainEnd main_end() const;
 
   private:
     struct State;

@@ -37,6 +37,30 @@ int read_count(const char*& p, const char* end) {
 
 }  // namespace
 
+std::optional<LetterPlace> first_small_letter(std::string_view text) {
+    LineScan scan(text, start_of_text(text));
+    while (scan.next()) {
+        const LineHead& head = scan.head();
+        if (head.kind == LineKind::blank || head.kind == LineKind::over) continue;
+        const char* const first = text.data() + head.place.byte;
+        const char* const end = find_line_end(first, text.data() + text.size());
+        const std::string_view line(first, static_cast<std::size_t>(end - first));
+        if (line.find("PRNT") != line.npos || line.find("SETVN") != line.npos) continue;
+        char closes = 0;  // of the comment or name around the letter
+        for (std::size_t i = 0; i < line.size(); ++i) {
+            const char c = line[i];
+            if (closes != 0) {
+                if (c == closes) closes = 0;
+            } else if (c == '(' || c == '<') {
+                closes = c == '(' ? ')' : '>';
+            } else if (c != upper(c)) {
+                return LetterPlace{head.place.line, static_cast<int>(i) + 1};
+            }
+        }
+    }
+    return std::nullopt;
+}
+
 std::optional<int> number_of_name(std::string_view name) {
     if (name.empty() || upper(name[0]) != 'O') return std::nullopt;
     const char* p = name.data() + 1;

@@ -29,6 +29,13 @@ std::optional<int> number_of_name(std::string_view name);
 /// Skips a byte order mark.
 TextPlace start_of_text(std::string_view text);
 
+/// The first small letter of a text that a run reads as a capital: not in a comment, a name or a
+/// printed text. Line and column from 1.
+struct LetterPlace {
+    int line = 0, column = 0;
+};
+std::optional<LetterPlace> first_small_letter(std::string_view text);
+
 class LineScan {
   public:
     LineScan(std::string_view text, TextPlace from) : text_(text), next_(from) {}

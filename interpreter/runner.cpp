@@ -49,6 +49,7 @@ void Interpreter::State::start(Section& section) {
     modal_count = 0;
     pending = {};
     moved = ended = limit = false;
+    main_end = MainEnd::other;
 }
 
 namespace {
@@ -186,6 +187,7 @@ bool Interpreter::State::program_block(const Block& block, Code& code, int index
 void Interpreter::State::end_of_section() {
     if (frames.size() == 1) {
         ended = true;
+        main_end = MainEnd::out_of_text;
         return;
     }
     give_back(-1, -1);

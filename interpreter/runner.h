@@ -150,6 +150,7 @@ struct Interpreter::State {
     bool moved = false;
     bool ended = true;
     bool limit = false;
+    MainEnd main_end = MainEnd::other;
     std::uint64_t executed = 0;
     std::uint64_t lines = 0;       ///< lines executed, including empty ones
     std::uint64_t look_up_at = 0;  ///< number of lines at which limits are checked next

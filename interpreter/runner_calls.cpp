@@ -363,6 +363,7 @@ void Interpreter::State::give_back(int n, int repeats) {
     Frame& f = frame();
     if (frames.size() == 1) {
         ended = n < 0 && options.main_m99_ends;
+        if (ended) main_end = MainEnd::returned;
         at = f.start;
         link_from = -1;
         if (n >= 0) jump(target_of_return(f, n));

@@ -41,6 +41,7 @@ struct ToolOffset {
     double length_wear_mm = 0.0;
     double radius_geometry_mm = 0.0;
     double radius_wear_mm = 0.0;
+    bool length_given = false, radius_given = false;  ///< also when the value given is 0
     double length_mm() const { return length_geometry_mm + length_wear_mm; }
     double radius_mm() const { return radius_geometry_mm + radius_wear_mm; }
 };

@@ -72,8 +72,7 @@ FinishedRun run(const LoadedSetup& loaded, const RunRequest& request) {
         emulator::run_program(loaded.setup, program.folders, program.program, options);
     out.json = report::run_json(log, setup::all_machine_axes(loaded.setup), program.folders.used());
     if (const auto& alarm = log.result.alarm)
-        out.alarm_text = format_diagnostic(
-            alarm->where, fmt::format("alarm {} {}", alarm->number, alarm->text), alarm->block);
+        out.alarm_text = format_diagnostic(alarm->where, emulator::title_of(*alarm), alarm->block);
     out.notes = log.notes;
     for (const std::string& note : program.folders.announcements()) out.notes.push_back(note);
     out.printed = std::move(log.printed);

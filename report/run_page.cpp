@@ -262,8 +262,8 @@ void set_verdict(Page& page, const emulator::RunLog& log, const RunPath& path) {
     if (const auto& alarm = log.result.alarm) {
         page.tone = Tone::bad;
         page.verdict =
-            fmt::format("The control stopped with alarm {} ({}) at {}:{}.", alarm->number,
-                        alarm->text, alarm->where.program, alarm->where.line);
+            fmt::format("The control stopped with {} at {}:{}.", emulator::title_of(*alarm),
+                        alarm->where.program, alarm->where.line);
         return;
     }
     const std::string ended = log.result.status == controller::RunStatus::limit

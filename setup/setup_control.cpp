@@ -79,6 +79,8 @@ void read_tools(const TomlFile& file, const TomlValue& table, offsets::ToolOffse
         tool.length_wear_mm = file.find_number(value, "length_wear_mm").value_or(0.0);
         tool.radius_geometry_mm = file.find_number(value, "diameter_mm").value_or(0.0) / 2.0;
         tool.radius_wear_mm = file.find_number(value, "diameter_wear_mm").value_or(0.0) / 2.0;
+        tool.length_given = value.find("length_mm") || value.find("length_wear_mm");
+        tool.radius_given = value.find("diameter_mm") || value.find("diameter_wear_mm");
     }
 }
 

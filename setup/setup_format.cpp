@@ -189,13 +189,14 @@ std::string tools_text(const offsets::ToolOffsets& tools) {
     for (std::size_t i = 1; i < tools.tool.size(); ++i) {
         const offsets::ToolOffset& tool = tools.tool[i];
         std::string line;
-        const auto add = [&](const char* key, double value) {
-            if (value != 0.0)
+        const auto add = [&](const char* key, double value, bool given = false) {
+            if (value != 0.0 || given)
                 line += (line.empty() ? "" : ", ") + std::string(key) + " = " + shortest(value);
         };
-        add("length_mm", tool.length_geometry_mm);
+        add("length_mm", tool.length_geometry_mm, tool.length_given && tool.length_mm() == 0.0);
         add("length_wear_mm", tool.length_wear_mm);
-        add("diameter_mm", 2.0 * tool.radius_geometry_mm);
+        add("diameter_mm", 2.0 * tool.radius_geometry_mm,
+            tool.radius_given && tool.radius_mm() == 0.0);
         add("diameter_wear_mm", 2.0 * tool.radius_wear_mm);
         if (!line.empty()) out += std::to_string(i) + " = { " + line + " }\n";
     }

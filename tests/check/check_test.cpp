@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -18,6 +19,12 @@ std::vector<check::Finding> check_text(const std::string& text) {
     options.dialect = interpreter::fanuc_dialect();
     options.knows_g = [](int code10) { return code10 != 7770; };
     options.finds_program = [](int number) { return number == 5; };
+    options.arc_fit = [](double start_mm, double end_mm) {
+        return std::abs(start_mm - end_mm) > 0.02 ? check::ArcFit::refused : check::ArcFit::good;
+    };
+    options.chord_exceeds = [](double chord_mm, double radius_mm) {
+        return 0.5 * chord_mm - std::abs(radius_mm) > 0.02;
+    };
     options.finds_named = [](const std::string& name) { return name == "BORE"; };
     return check::check_program({"p.nc", *owner, owner}, options);
 }
@@ -36,7 +43,7 @@ TEST_CASE("each rule finds its fault at its line, once, and not in the mended pr
          "O1\nIF[#1EQ1]GOTO8\nN7X1.\nN7X2.\nN8M30\n", 2},
         {"branch", "O1\nENDIF\nM30\n", "O1\nIF[#1EQ1]THEN\nELSE\nENDIF\nM30\n", 2},
         {"branch", "O1\nIF[#1EQ1]THEN\nM30\n", "O1\nIF[#1EQ1]THEN #1=2\nM30\n", 2},
-        {"branch", "O1\nELSE\nM30\n", "O1\nIF[#1EQ1]THEN\nM99\nENDIF\nM30\n", 2},
+        {"branch", "O1\nELSE\nM30\n", "O1\nIF[#1EQ1]THEN\nM30\nENDIF\nM30\n", 2},
         {"loop", "O1\nEND1\nM30\n", "O1\nWHILE[#1LT3]DO1\nEND1\nM30\n", 2},
         {"loop", "O1\nWHILE[#1LT3]DO2\nM30\n", "O1\nWH[#1LT3]DO2\nEND2\nM30\n", 2},
         {"loop", "O1\nIF[#1EQ1]GOTO5\nWHILE[#1LT3]DO1\nN5#1=#1+1\nEND1\nM30\n",
@@ -59,7 +66,7 @@ TEST_CASE("each rule finds its fault at its line, once, and not in the mended pr
         {"arc-radius", "O1\nG19G91G3Y10.Z0.J4.K0.F9.\nM30\n", "O1\nG19G91G3Y10.Z0.J5.K0.F9.\nM30\n",
          2},
         {"left-on", "O1\nG43.5H1\nM2\n", "O1\nG43.5H1\nG49\nM2\n", 3},
-        {"unreachable", "O1\nM99\nX1.\n", "O1\nM99\nN5X1.\n", 3},
+        {"unreachable", "O9001\nM99\nX1.\n", "O9001\nM99\nN5X1.\n", 3},
         {"syntax", "O1\nIF[#1EQ2]X1.\nM30\n", "O1\nIF[#1EQ2]THEN#1=3\nM30\n", 2},
         {"arc-radius", "O1\nG17G90G0X0.Y0.\nG2X20.Y5.I5.J0.F9.\nM30\n",
          "O1\nG17G90G0X0.Y0.\nG2X5.Y5.I5.J0.F9.\nM30\n", 3},

@@ -26,6 +26,7 @@ std::vector<check::Finding> found(const std::string& text, bool bnc) {
     testing::set_two_table_axes(stores.parameters, 1);
     stores.parameters.set(19697, 3);
     stores.parameters.set(3401, 1);
+    for (const std::size_t tool : {1U, 2U}) stores.tools.tool[tool].length_given = true;
     check::CheckOptions options;
     options.dialect = config.dialect;
     options.arc_centres_are_places = bnc;

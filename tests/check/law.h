@@ -9,6 +9,7 @@
 #include "base/random.h"
 #include "check/check.h"
 #include "controller/alarms.h"
+#include "controller/arcs.h"
 #include "controller/block_trial.h"
 #include "controller/controller.h"
 #include "controller/g_codes.h"
@@ -41,6 +42,12 @@ inline check::CheckOptions options_for(const controller::ControlConfig& config,
     options.alarm_text = [](int number) { return controller::alarm_title(number, ""); };
     options.variable_alarm = [&config, &stores](int number, bool writes) {
         return controller::variable_alarm(number, writes, config, stores);
+    };
+    options.arc_fit = [](double start_mm, double end_mm) {
+        return static_cast<check::ArcFit>(controller::fit_of_radii(start_mm, end_mm, 0.0));
+    };
+    options.chord_exceeds = [](double chord_mm, double radius_mm) {
+        return controller::chord_exceeds(chord_mm, radius_mm, 0.0);
     };
     options.start_trial = [&config, &stores] {
         return std::make_unique<check::TrialBy<controller::BlockTrial>>(config, stores);

@@ -69,7 +69,7 @@ TEST_CASE("check ends a program that loops for ever") {
 
 TEST_CASE("check --against: another control, generation, choice, parameter, setup; how far") {
     const Bench bench;
-    bench.write("part.nc", "O1\nG90 G21 G17 G54\nT1 M6\nG43 H1\nG0 X100. Y20.\nX5\nM30\n");
+    bench.write("part.nc", "O1\nG90 G21 G17 G54\nT1 M6\nG43 H1\nG0 X100. Y20.\nX5.\nM30\n");
     CHECK(bench.check("part.nc --against 16i") == 0);
     CHECK(bench.check("part.nc --against block_skip.1=on") == 0);
     CHECK(bench.check("part.nc --against hurco") == 1);
@@ -80,6 +80,9 @@ TEST_CASE("check --against: another control, generation, choice, parameter, setu
     REQUIRE(json["findings"].size() == 1);
     CHECK(json["findings"][0]["rule"] == "reading");
     CHECK(json["findings"][0]["line"] == 4);
+    bench.write("part.nc", "O1\nG90 G21 G17 G54\nT1 M6\nG43 H1\nG0 X100. Y20.\nX5\nM30\n");
+    CHECK(bench.check("part.nc") == 1);  // X5 beside Y20.
+    CHECK_THAT(bench.out(), Catch::Contains("[decimal-point]"));
     CHECK(bench.check("part.nc --against 3401=0") == 1);
     CHECK_THAT(bench.out(), Catch::Contains("part.nc:6:1: warning: ends at X5.") &&
                                 Catch::Contains("4.9950 mm apart"));

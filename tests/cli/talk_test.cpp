@@ -36,7 +36,7 @@ TEST_CASE("quiet: results and errors only") {
     CHECK(bench.trunnion("run " + part + " --quiet") == 0);
     CHECK(bench.read("err.txt").empty());
     CHECK(bench.trunnion("run " + bench.write("bad.nc", "O1\nG999\nM30\n") + " -q") == 3);
-    CHECK_THAT(bench.read("err.txt"), Catch::Contains("bad.nc:2:1: error: alarm 10"));
+    CHECK_THAT(bench.read("err.txt"), Catch::Contains("bad.nc:2:1: error: PS0010"));
 }
 
 TEST_CASE("verbose names the files read and the time") {

@@ -295,7 +295,7 @@ TEST_CASE("parallel rotary axes make no five-axis kinematics, and it is said why
     CHECK(bench.trunnion("run " + bench.program + " --setup " + machine) == 0);
     CHECK_THAT(bench.read("err.txt"), Catch::Contains("rotary axes are parallel"));
     CHECK(bench.trunnion("run " + tcp + " --setup " + machine) == 3);
-    CHECK_THAT(bench.read("err.txt"), Catch::Contains("tcp.nc:2:5: error: alarm 5420"));
+    CHECK_THAT(bench.read("err.txt"), Catch::Contains("tcp.nc:2:5: error: PS5420"));
     for (const char* command : {"ballbar", "pivot"}) {
         CAPTURE(command);
         CHECK(bench.trunnion(std::string(command) + " --setup " + machine) == 2);

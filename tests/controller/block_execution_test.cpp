@@ -139,13 +139,13 @@ TEST_CASE("the first number without a point is noted, whichever word of its bloc
         Bench b;
         b(block);
         INFO(block);
-        CHECK(b.control.mover.record().notes.size() == 1);
+        CHECK(b.control.mover.record().cautions.notes().size() == 1);
         b("Z50");
-        CHECK(b.control.mover.record().notes.size() == 1);
+        CHECK(b.control.mover.record().cautions.notes().size() == 1);
     }
     Bench b;
     b("G0 X0 Y0.;X1. Z-3.5");  // 0 is 0 in every unit
-    CHECK(b.control.mover.record().notes.empty());
+    CHECK(b.control.mover.record().cautions.notes().empty());
 }
 
 }  // namespace trunnion
