@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/units.h"
+#include "emulator/run.h"
 #include "interpreter/program_folders.h"
 #include "regression/causes.h"
 #include "regression/describe.h"
@@ -260,10 +261,10 @@ class ProgramComparer {
         describe_written(Layer::words, written_side(a_, setup_a_, run_a_),
                          written_side(b_, setup_b_, run_b_), options_.most_differences, result_);
         result_.notes.push_back(fmt::format(
-            "both stop with alarm {} {} (A line {}, B line {}): a program that needs arguments is "
+            "both stop with alarm {} (A line {}, B line {}): a program that needs arguments is "
             "compared with --call \"G65 P.. ..\"",
-            run_a_->result.alarm->number, run_a_->result.alarm->text,
-            run_a_->result.alarm->where.line, run_b_->result.alarm->where.line));
+            emulator::title_of(*run_a_->result.alarm), run_a_->result.alarm->where.line,
+            run_b_->result.alarm->where.line));
         return true;
     }
 
@@ -333,7 +334,7 @@ class ProgramComparer {
         if (run.status == controller::RunStatus::limit && result_.status != CompareStatus::alarm)
             result_.status = CompareStatus::limit;
         if (run.status != controller::RunStatus::alarm) return;
-        alarm = fmt::format("{} {}", run.alarm->number, run.alarm->text);
+        alarm = emulator::title_of(*run.alarm);
         if (result_.by == Layer::text || result_.by == Layer::words) return;
         result_.status = CompareStatus::alarm;
         Difference d;

@@ -140,7 +140,7 @@ struct Comparison {
     std::uint64_t differences_left_out = 0;
     std::vector<ToolRow> tools;
     double time_a_s = 0.0, time_b_s = 0.0;
-    std::string alarm_a, alarm_b;  ///< "10 IMPROPER G-CODE" or empty
+    std::string alarm_a, alarm_b;  ///< "PS0010 IMPROPER G-CODE" or empty
     std::vector<std::string> notes;
     ComparePicture picture;
 };

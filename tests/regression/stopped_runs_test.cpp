@@ -41,7 +41,7 @@ TEST_CASE("a side that stops with an alarm shows the block of the cause", "[comp
             compare_texts(replaced(part, "Y5.", "Y5000."), part, machine());
         CHECK(r.status == CompareStatus::alarm);
         CHECK(r.alarm_b.empty());
-        CHECK(r.differences.front().what.find("A stops with alarm 500") == 0);
+        CHECK(r.differences.front().what.find("A stops with alarm OT0500") == 0);
         CHECK(r.differences.front().a.line == 7);
     }
     SECTION("each side with an alarm of its own") {
@@ -61,7 +61,7 @@ TEST_CASE("a side that stops with an alarm shows the block of the cause", "[comp
         CHECK(r.by == regression::Layer::words);
         CHECK(r.status == CompareStatus::differs);
         CHECK(r.alarm_a == r.alarm_b);
-        CHECK(r.notes.front().find("both stop with alarm 500") == 0);
+        CHECK(r.notes.front().find("both stop with alarm OT0500") == 0);
     }
 }
 
