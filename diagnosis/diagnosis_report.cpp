@@ -355,8 +355,8 @@ Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options) {
     for (const Claim& claim : claims) {
         d.causes.push_back(cause_of({f.design, f.model, f.judgement, solution, covariance}, claim));
         d.causes.back().heldout = alone(f, claim.position, draws);
-        d.causes.back().written = is_written(f.design, written.model,
-                                             f.design.group(f.model.members[claim.position]));
+        d.causes.back().written =
+            is_written(f.design, written.model, f.design.group(f.model.members[claim.position]));
     }
     add_scales(f.prepared.catalogue, d.causes);
     d.after = held_out(f, written.blocks.before, written.blocks.after);

@@ -172,8 +172,8 @@ std::optional<MistakenTable> mistaken_table(const Prepared& p, const SearchResul
     if (before < rules::mistaken_sigmas) return std::nullopt;
     // What effects of usual size explain to the noise is no slip, unless it is absurd.
     const std::vector<double> sizes = usual_sizes(found.design, found.model);
-    const bool usual = std::all_of(sizes.begin(), sizes.end(),
-                                   [](double size) { return size < rules::enormous; });
+    const bool usual =
+        std::all_of(sizes.begin(), sizes.end(), [](double size) { return size < rules::enormous; });
     if (usual && now.left < to_the_noise && before < absurd) return std::nullopt;
     const auto best = best_slip(p.replay.setup(), p.table);
     if (!best) return wrong_size(p, now.left);

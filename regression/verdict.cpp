@@ -39,9 +39,9 @@ std::string equal_verdict(const Comparison& c, const Tolerances& tolerances) {
     std::string text =
         fmt::format("equal by {}: {}", name_of(c.by), same[static_cast<std::size_t>(c.by)]);
     if (c.by == Layer::path || c.by == Layer::axes)
-        text += fmt::format(" within {:g} mm, {:g} deg and {:g} % of the feed",
-                            tolerances.position_mm, deg_from_rad(tolerances.direction_rad),
-                            100.0 * tolerances.feed_ratio);
+        text +=
+            fmt::format(" within {:g} mm, {:g} deg and {:g} % of the feed", tolerances.position_mm,
+                        deg_from_rad(tolerances.direction_rad), 100.0 * tolerances.feed_ratio);
     if (c.by != Layer::functions && has_layer(c, Layer::functions)) text += ", the same functions";
     if (c.layers.size() > 1 && !c.layers.front().equal)
         text += fmt::format("; first to differ: {}", name_of(c.layers.front().layer));
