@@ -25,8 +25,10 @@ bool jumps(const CheckSection& section, const interpreter::Block& block) {
     return !items.empty() && items.front().kind == interpreter::ItemKind::go_to;
 }
 
-/// A text that runs out: a Fanuc stops with alarm 5010, a Hurco is not known.
+/// A text that runs out: a Fanuc stops with alarm 5010. The last line of a Hurco is E; what it does
+/// without one is not known.
 void check_open_end(const CheckSection& section, const CheckOptions& options, Findings& findings) {
+    if (options.dialect.family != interpreter::DialectFamily::fanuc) return;
     const interpreter::Block* last = nullptr;
     for (const interpreter::Block* block : section.blocks) {
         if (block->items.count > 0) last = block;
@@ -34,12 +36,10 @@ void check_open_end(const CheckSection& section, const CheckOptions& options, Fi
     }
     int column = 1;
     if (!last || jumps(section, *last) || called_program(*section.program, *last, column)) return;
-    const bool fanuc = options.dialect.family == interpreter::DialectFamily::fanuc;
-    findings.add("program-end", fanuc ? Severity::warning : Severity::note, {*last, 1},
-                 fanuc ? "no M02, M30 or M99: a Fanuc stops behind this block with alarm 5010 END "
-                         "OF RECORD"
-                       : "no M02, M30 or M99 at the end",
-                 "End a main program with M30, a subprogram with M99.");
+    findings.add(
+        "program-end", Severity::warning, {*last, 1},
+        "no M02, M30 or M99: a Fanuc stops behind this block with alarm 5010 END OF RECORD",
+        "End a main program with M30, a subprogram with M99.");
 }
 
 bool is_called(const interpreter::ParsedProgram& program, int number) {

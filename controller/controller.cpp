@@ -129,10 +129,11 @@ void note_end(interpreter::MainEnd end, bool hurco, RunRecord& record) {
         record.note(
             "M99 in the main program starts it again without end on a control; the run stops after "
             "the first pass");
-    if (end == interpreter::MainEnd::out_of_text)
-        record.note(hurco ? "the program ends without M02 or M30"
-                          : "the program ends without M02, M30 or M99: a Fanuc stops there with "
-                            "alarm 5010 END OF RECORD");
+    // A Hurco's last line is E; what it does without one is not known.
+    if (end == interpreter::MainEnd::out_of_text && !hurco)
+        record.note(
+            "the program ends without M02, M30 or M99: a Fanuc stops there with alarm 5010 END OF "
+            "RECORD");
 }
 
 }  // namespace

@@ -267,7 +267,7 @@ TEST_CASE("control characters of an input do not reach the screen") {
     CHECK(bench.trunnion(
               "compare " + bench.program + " " +
               bench.write("e.nc", "O1\nG0 X1. (" + junk + ")\n#3000=1(" + junk + ")\nM30\n")) == 3);
-    CHECK_THAT(bench.read("out.txt"), Catch::Contains("alarm 3001 ?[2J??") &&
+    CHECK_THAT(bench.read("out.txt"), Catch::Contains("alarm MC3001 ?[2J??") &&
                                           !Catch::Contains("\x1B") && !Catch::Contains("\xFF"));
 }
 

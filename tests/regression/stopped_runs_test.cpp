@@ -26,7 +26,7 @@ TEST_CASE("a side that stops with an alarm shows the block of the cause", "[comp
         const regression::Comparison r = stops(replaced(part, "Y5.", "Y5000."));
         CHECK(r.status == CompareStatus::alarm);
         CHECK(r.alarm_a.empty());
-        CHECK(r.alarm_b.starts_with("500 "));
+        CHECK(r.alarm_b.starts_with("OT0500 "));
         CHECK(r.differences.front().b.line == 7);
         CHECK(r.differences.front().cause == "Y5000. instead of Y5.");
     }
@@ -129,7 +129,7 @@ TEST_CASE("a comment that is not closed stops a program: it is never equal to on
             compare_texts(part, replaced(part, "X20.", open), machine());
         CHECK(r.status == CompareStatus::alarm);
         CHECK_FALSE(r.equal);
-        CHECK(r.alarm_b.starts_with("9 "));
+        CHECK(r.alarm_b.starts_with("PS0009 "));
     }
 }
 
@@ -159,6 +159,6 @@ TEST_CASE("an alarm in the call of both programs is told at the call", "[compare
     const std::string asks = replaced(part, "G90 G21", "IF[#1EQ1.]THEN#3000=7(NO)\nG90 G21");
     const regression::Comparison one = compare_texts(part, asks, machine(), options);
     CHECK(one.status == CompareStatus::alarm);
-    CHECK(one.alarm_b.starts_with("3007 "));
+    CHECK(one.alarm_b.starts_with("MC3007 "));
     CHECK(one.differences.front().b.line == 2);
 }
