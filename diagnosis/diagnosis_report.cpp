@@ -186,8 +186,9 @@ const ColumnGroup& fullest_form(const Design& design, std::size_t rival) {
 }
 
 /// Probability that a claim or one of its rivals, which share alike, is the truth, and that the
-/// model is right beside them. Of a gap that is not explained something else is missing, which new
-/// readings will show as well.
+/// model is right beside them (assumed: as if its other causes stood or fell with the least certain
+/// one). Of a gap that is not explained something else is missing, which new readings will show as
+/// well.
 double believed(const Outcome& f, const std::vector<Claim>& claims, const Claim& claim) {
     double believed = claim.probability * (1.0 + static_cast<double>(claim.rivals.size()));
     believed = std::min(1.0, believed);

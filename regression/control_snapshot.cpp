@@ -126,8 +126,11 @@ UnsetOffsets unset_offsets(const controller::Control& c) {
     };
     UnsetOffsets unset;
     unset.length = c.frames.tool.number;
-    unset.length_is_set = row(unset.length).length_mm() != 0.0;
-    if (const int d = c.modal.number.radius; !c.modal.cutter_is_off() && row(d).radius_mm() == 0.0)
+    const offsets::ToolOffset length = row(unset.length);
+    unset.length_is_set = length.length_given || length.length_mm() != 0.0;
+    const int d = c.modal.number.radius;
+    const offsets::ToolOffset radius = row(d);
+    if (!c.modal.cutter_is_off() && !radius.radius_given && radius.radius_mm() == 0.0)
         unset.radius = c.modal.codes.code10[7] == 420 ? -d : d;
     const auto& work = c.frames.stages.work.value;
     if (std::all_of(work.begin(), work.end(), [](double value) { return value == 0.0; })) {

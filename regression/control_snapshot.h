@@ -52,10 +52,10 @@ struct BlockLook {
 
 /// Offsets in force whose values the stores do not have: the path does not tell one from another.
 struct UnsetOffsets {
-    std::int32_t length = 0;  ///< H of G43, G44; 0: none. Its own value is not asked here
-    bool length_is_set = false;
-    std::int32_t radius = 0;  ///< D, negative under G42; 0: none, or its radius is set
-    std::int32_t work = 0;    ///< 54 .. 59, 100 + P of G54.1; 0: its values are not all 0
+    std::int32_t length = 0;     ///< H of G43, G44, with or without a value; 0: none
+    bool length_is_set = false;  ///< not 0, or a 0 that the setup states
+    std::int32_t radius = 0;     ///< D, negative under G42; 0: none, or its radius is set
+    std::int32_t work = 0;       ///< 54 .. 59, 100 + P of G54.1; 0: its values are not all 0
 };
 UnsetOffsets unset_offsets(const controller::Control& control);
 

@@ -123,16 +123,21 @@ Vector3 PathRecorder::offset_vector_mm(const motion::AxisMove& move) const {
     return seen_length_mm_[offset] / move.tool_vector_mm.norm() * move.tool_vector_mm;
 }
 
-Vector3 PathRecorder::tool_vector_mm(const motion::AxisMove& move) {
-    if (tool_ != move.tool) {
-        tool_ = move.tool;
-        tool_length_mm_ = length_of_tool_mm_ ? length_of_tool_mm_(move.tool) : 0.0;
+double PathRecorder::length_of_tool_mm(int tool) {
+    if (tool_ != tool) {
+        tool_ = tool;
+        tool_length_mm_ = tools_ ? tools_(tool) : 0.0;
     }
+    return tool_length_mm_;
+}
+
+Vector3 PathRecorder::tool_vector_mm(const motion::AxisMove& move) {
+    const double length_mm = length_of_tool_mm(move.tool);
     // Rapids before the first G43 say nothing of the tool's length, which may be measured again.
     const bool before_any = !held_vector_mm_ && move.tool_vector_mm.isZero(0.0) &&
                             move.kind == motion::MotionKind::rapid;
-    if (tool_length_mm_ == 0.0 || before_any) return offset_vector_mm(move);
-    return tool_length_mm_ *
+    if (length_mm == 0.0 || before_any) return offset_vector_mm(move);
+    return length_mm *
            (transform_ != nullptr ? transform_->pivot().tool_direction : Vector3::UnitZ());
 }
 

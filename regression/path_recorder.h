@@ -1,5 +1,5 @@
-// Converts the commands of a control into the segments of a layer. Belief only: no physical
-// machine.
+// Converts the commands of a control into the segments of a layer. The kinematics are believed; of
+// the machine only the lengths of its tools are known here.
 #pragma once
 
 #include <Eigen/Core>
@@ -30,9 +30,10 @@ class PathRecorder : public motion::MotionSink {
     /// is that of the tip of the tool in the spindle, whatever offset is active: a wrong or missing
     /// H moves the tip, and so does a cut without one. A tool of unknown length is as long as the
     /// active offset says, and so is any in rapids before the first offset.
-    void tools_are(std::function<double(int tool)> length_mm) {
-        length_of_tool_mm_ = std::move(length_mm);
-    }
+    void tools_are(std::function<double(int tool)> length_mm) { tools_ = std::move(length_mm); }
+
+    /// As told by tools_are, mm.
+    double length_of_tool_mm(int tool);
 
     motion::MoveResult move(const motion::AxisMove& move) override;
     /// `on`: the feed of the following moves follows from length and time (G93).
@@ -56,7 +57,7 @@ class PathRecorder : public motion::MotionSink {
     bool begun_ = false, by_time_ = false;
     const positioning::RotaryTransform* seen_through_ = nullptr;
     std::vector<double> seen_length_mm_;
-    std::function<double(int)> length_of_tool_mm_;
+    std::function<double(int)> tools_;
     std::optional<int> tool_;  ///< whose length `tool_length_mm_` is
     double tool_length_mm_ = 0.0;
     /// Of the present move: from the tip to the gauge point, and the kinematics it is seen through.

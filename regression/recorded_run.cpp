@@ -67,14 +67,14 @@ class RecordingSink : public motion::MotionSink {
         motion::AxisMove seen = move;
         if (made.skipped) seen.to = made.stopped;
         path_.feeds_by_time(feeds_by_inverse_time(*control_));
-        functions_.before_move(seen, unset_offsets(*control_), knows(seen.tool));
+        functions_.before_move(seen, unset_offsets(*control_),
+                               path_.length_of_tool_mm(seen.tool) != 0.0);
         keys_.move(seen);
         path_.move(seen);
         return made;
     }
     /// The tools of this setup are in the magazine; it must outlive the run.
     void tools_of(const setup::Setup& setup) {
-        tools_ = &setup;
         path_.tools_are([&setup](int tool) { return emulator::tool_length_mm(setup, tool); });
     }
     void see_through(const positioning::RotaryTransform& transform, const offsets::Stores& stores) {
@@ -109,13 +109,6 @@ class RecordingSink : public motion::MotionSink {
     }
 
   private:
-    bool knows(int tool) {
-        if (tool_ != tool) {
-            tool_ = tool;
-            tool_is_known_ = emulator::tool_length_mm(*tools_, tool) != 0.0;
-        }
-        return tool_is_known_;
-    }
     void keep_state(const BlockLook& look) {
         if (run_.states.size() == 0 || !(state_ == kept_)) {
             const bool known = look.program != nullptr;
@@ -134,9 +127,6 @@ class RecordingSink : public motion::MotionSink {
     BlockKeys keys_;
     FunctionRecorder functions_;
     std::optional<emulator::MachineSink> machine_;
-    const setup::Setup* tools_ = nullptr;
-    std::optional<int> tool_;
-    bool tool_is_known_ = false;                    ///< of `tool_`
     const controller::Control* control_ = nullptr;  ///< seen before the first block
     ControlSnapshot state_, kept_;
     std::array<double, 3> rotary_deg_{};

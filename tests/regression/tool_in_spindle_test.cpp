@@ -85,6 +85,20 @@ TEST_CASE("an offset without a value is not equal to another one", "[compare]") 
     CHECK(answer(written, replaced(written, "G55", "G56")).empty());
 }
 
+TEST_CASE("offsets that the setup states as 0 are set: the path decides", "[compare]") {
+    setup::Setup setup = bc_table();
+    for (const std::size_t k : {5, 6}) {
+        setup.stores.tools.tool[k].length_given = true;
+        setup.stores.tools.tool[k].radius_given = true;
+    }
+    const std::string a = unknown_tool(part);
+    CHECK(compare_texts(a, replaced(a, "D5", "D6"), setup).equal);
+    // The tool itself is still unknown: which H is right, nobody can tell.
+    const regression::Comparison r = compare_texts(a, replaced(a, "H5", "H6"), setup);
+    REQUIRE_FALSE(r.equal);
+    CHECK(r.differences.front().what.find("not set") == std::string::npos);
+}
+
 TEST_CASE("what stays in force behind the end is a difference", "[compare]") {
     const auto ends = [](const char* with) { return answer(part, replaced(part, "M30", with)); };
     CHECK_THAT(ends("G92 X10.\nM30"), Catch::Contains("left active: G92 X"));
