@@ -1,5 +1,5 @@
 # The rooms of the house, lowest floor first: a room may include only the rooms listed behind it.
-# A room inside a room (ballbar/test) stands on another floor than the room around it.
+# A room inside a room (ballbar/test, diagnosis/search) stands on another floor than the room around it.
 # tests/layering.cmake reads this same list and fails when an #include breaks it or when a
 # permission is not used.
 set(TRUNNION_ROOMS
@@ -26,14 +26,21 @@ set(TRUNNION_ROOMS
   "identification: estimation effects emulator base"
   "regression: emulator setup controller motion positioning interpreter geometry base"
   "choices: estimation emulator setup records controller motion offsets interpreter base"
-  "diagnosis: identification estimation effects emulator setup records kinematics base"
+  "diagnosis/rules"
+  "diagnosis/prepare: diagnosis/rules identification estimation effects emulator records base"
+  "diagnosis/search: diagnosis/rules diagnosis/prepare identification estimation base"
+  "diagnosis/groups: diagnosis/search diagnosis/prepare diagnosis/rules identification estimation effects base"
+  "diagnosis/verdict: diagnosis/groups diagnosis/search diagnosis/prepare diagnosis/rules estimation base"
+  "diagnosis/stores: diagnosis/verdict diagnosis/rules identification estimation effects setup records"
+  "diagnosis/advice: diagnosis/search diagnosis/prepare diagnosis/rules estimation setup records base"
+  "diagnosis: diagnosis/advice diagnosis/stores diagnosis/verdict diagnosis/groups diagnosis/search diagnosis/prepare diagnosis/rules identification estimation effects setup records kinematics base"
   "pivot: estimation effects emulator setup positioning records interpreter kinematics geometry base"
   "compensation: emulator setup motion positioning kinematics offsets base"
   "volumetric: emulator setup kinematics base"
   "ballbar/test: estimation emulator setup records kinematics interpreter geometry base"
   "report: ballbar/test volumetric pivot compensation choices diagnosis identification regression effects emulator setup check records geometry base"
   "python: report inputs diagnosis regression identification effects emulator setup records interpreter base"
-  "cli: report ballbar/test inputs imports pivot compensation choices diagnosis regression identification effects emulator setup backup check controller records interpreter base"
+  "cli: report ballbar/test inputs imports pivot compensation choices diagnosis diagnosis/stores regression identification effects emulator setup backup check controller records interpreter base"
 )
 
 # What stands behind the colon of one line of the list.
@@ -61,6 +68,7 @@ function(trunnion_room folder depends)
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.cpp)
   file(GLOB headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.h)
   string(REPLACE "/" "_" name ${folder})
+  string(REGEX REPLACE "/.*" "" around ${folder})
   if(NOT sources AND NOT headers)
     return()
   endif()
@@ -68,11 +76,11 @@ function(trunnion_room folder depends)
   if(sources)
     add_library(trunnion_${name} STATIC ${sources})
     target_link_libraries(trunnion_${name} PRIVATE trunnion_warnings)
-    if(name IN_LIST TRUNNION_UNOPTIMISED_ROOMS)
+    if(around IN_LIST TRUNNION_UNOPTIMISED_ROOMS)
       target_compile_options(trunnion_${name} PRIVATE -O0)
-    elseif(name IN_LIST TRUNNION_OPTIMISED_ROOMS)
+    elseif(around IN_LIST TRUNNION_OPTIMISED_ROOMS)
       target_compile_options(trunnion_${name} PRIVATE -O2 -Wno-error)
-    elseif(name IN_LIST TRUNNION_UNCOPIED_ROOMS)
+    elseif(around IN_LIST TRUNNION_UNCOPIED_ROOMS)
       # With -O0 the sums of Eigen take some hundred times as long. The counters are set behind the
       # early passes, so these may neither inline nor join conditions; headers have no counters.
       target_compile_options(trunnion_${name} PRIVATE -fno-early-inlining -fno-ssa-phiopt

@@ -15,6 +15,7 @@ set(TRUNNION_ALONE
 
 function(trunnion_group_files target)
   string(REGEX REPLACE "^trunnion_" "" room ${target})
+  string(REGEX REPLACE "^diagnosis_.*" "diagnosis" room ${room})
   if(TRUNNION_UNITY AND NOT room IN_LIST TRUNNION_SINGLE_ROOMS)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 20)
     # GCC takes the grouped files for headers, whose types should not have unnamed members.

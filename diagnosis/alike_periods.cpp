@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "base/units.h"
-#include "diagnosis/candidate_groups.h"
-#include "diagnosis/places.h"
-#include "diagnosis/ripples.h"
+#include "diagnosis/groups/candidate_groups.h"
+#include "diagnosis/groups/ripples.h"
+#include "diagnosis/prepare/places.h"
 #include "diagnosis/round.h"
-#include "diagnosis/rules.h"
+#include "diagnosis/rules/rules.h"
 
 namespace trunnion::diagnosis {
 namespace {

@@ -1,8 +1,8 @@
 // Periods of a ripple between which the readings do not decide.
 #pragma once
 
-#include "diagnosis/prepare.h"
-#include "diagnosis/search.h"
+#include "diagnosis/prepare/prepare.h"
+#include "diagnosis/search/search.h"
 
 namespace trunnion::diagnosis {
 

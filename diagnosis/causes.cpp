@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/units.h"
-#include "diagnosis/rules.h"
+#include "diagnosis/rules/rules.h"
 #include "estimation/ranked_least_squares.h"
 
 namespace trunnion::diagnosis {

@@ -1,8 +1,9 @@
 // Converts a claim into a cause for output: parameters or table, with uncertainty.
 #pragma once
 
-#include "diagnosis/solution.h"
-#include "diagnosis/verdict.h"
+#include "diagnosis/diagnosis.h"
+#include "diagnosis/search/solution.h"
+#include "diagnosis/verdict/verdict.h"
 
 namespace trunnion::diagnosis {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "diagnosis/rules.h"
+#include "diagnosis/rules/rules.h"
 #include "effects/settings.h"
 #include "estimation/ranked_least_squares.h"
 

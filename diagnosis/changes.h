@@ -2,7 +2,7 @@
 #pragma once
 
 #include "diagnosis/diagnosis_report.h"
-#include "diagnosis/solution.h"
+#include "diagnosis/search/solution.h"
 
 namespace trunnion::diagnosis {
 

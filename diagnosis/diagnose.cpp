@@ -7,17 +7,17 @@
 
 #include "base/alarm.h"
 #include "diagnosis/changes.h"
-#include "diagnosis/copies.h"
 #include "diagnosis/diagnosis_report.h"
+#include "diagnosis/groups/open_sides.h"
 #include "diagnosis/mistaken_table.h"
-#include "diagnosis/open_sides.h"
-#include "diagnosis/outliers.h"
+#include "diagnosis/prepare/copies.h"
+#include "diagnosis/prepare/outliers.h"
+#include "diagnosis/prepare/spoiled_readings.h"
+#include "diagnosis/prepare/thinning.h"
 #include "diagnosis/round.h"
-#include "diagnosis/rules.h"
-#include "diagnosis/solution.h"
-#include "diagnosis/spoiled_readings.h"
-#include "diagnosis/store_gap.h"
-#include "diagnosis/thinning.h"
+#include "diagnosis/rules/rules.h"
+#include "diagnosis/search/solution.h"
+#include "diagnosis/store_causes.h"
 #include "effects/settings.h"
 
 namespace trunnion::diagnosis {
@@ -163,23 +163,6 @@ Diagnosis reported(const Outcome& f, DiagnosisOptions options) {
 }
 
 }  // namespace
-
-const char* to_string(Verdict verdict) {
-    switch (verdict) {
-        case Verdict::no_gap: return "no-gap";
-        case Verdict::explained: return "explained";
-        case Verdict::partly_explained: return "partly-explained";
-        case Verdict::ambiguous: return "ambiguous";
-        case Verdict::unexplained: return "unexplained";
-    }
-    return "";
-}
-
-const char* to_string(NoiseSource source) {
-    return source == NoiseSource::repeats ? "repeats"
-           : source == NoiseSource::given ? "given"
-                                          : "assumed";
-}
 
 Diagnosis diagnose(const setup::Setup& setup, const records::ReadingTable& table,
                    const DiagnosisOptions& options) {

@@ -8,16 +8,14 @@
 #include <vector>
 
 #include "base/finite.h"
-#include "diagnosis/noise.h"
+#include "diagnosis/advice/measurements.h"
+#include "diagnosis/prepare/noise.h"
+#include "diagnosis/verdict/verdict_kind.h"
 #include "identification/unknown_sides.h"
 #include "records/readings.h"
 #include "setup/setup.h"
 
 namespace trunnion::diagnosis {
-
-enum class Verdict : unsigned char { no_gap, explained, partly_explained, ambiguous, unexplained };
-const char* to_string(Verdict verdict);
-const char* to_string(NoiseSource source);
 
 /// The gap on readings that were not used in the fit, before and after, in um (not whitened).
 struct HeldOut {
@@ -25,11 +23,6 @@ struct HeldOut {
     Finite shrink = 0.0;           ///< 1 - sqrt(max(0, after^2 - noise^2) / (before^2 - noise^2))
     Finite low = 0.0, high = 0.0;  ///< 95 %, bootstrap over poses and arcs
     std::size_t set_aside = 0;     ///< readings of a separate table that fit nothing
-};
-
-struct DriverShare {
-    std::string by, component, text;
-    Finite share = 0.0, p_value = 1.0;
 };
 
 /// One value of a free-form error.
@@ -77,14 +70,6 @@ struct SessionFit {
     std::string name;
     std::size_t readings = 0;
     double rms_before_um = 0.0, rms_after_um = 0.0;  ///< with the set-up alone, with the causes
-};
-
-struct NextMeasurement {
-    std::string first, second, text, program;
-    Finite log_bayes_factor = 0.0;  ///< predicted
-    Finite minutes = 0.0;
-    Finite probability = 0.0;  ///< predicted: that it excludes the rival
-    bool settles = false;      ///< ... which is then expected (rules::settles)
 };
 
 struct Diagnosis {

@@ -6,18 +6,18 @@
 #include <cmath>
 #include <optional>
 
-#include "diagnosis/between_places.h"
+#include "diagnosis/advice/next_measurement.h"
 #include "diagnosis/causes.h"
 #include "diagnosis/changes.h"
 #include "diagnosis/doubted.h"
-#include "diagnosis/next_measurement.h"
-#include "diagnosis/offers.h"
 #include "diagnosis/reading_sizes.h"
-#include "diagnosis/rules.h"
+#include "diagnosis/rules/rules.h"
+#include "diagnosis/search/offers.h"
+#include "diagnosis/search/solution.h"
 #include "diagnosis/set_up_report.h"
 #include "diagnosis/shrink_interval.h"
-#include "diagnosis/solution.h"
 #include "diagnosis/unknown_cause.h"
+#include "diagnosis/verdict/between_places.h"
 #include "diagnosis/written_setup.h"
 #include "estimation/distributions.h"
 

@@ -1,8 +1,9 @@
 // The last stage: the results as values for output; fresh rows: measured_shrink.cpp.
 #pragma once
 
-#include "diagnosis/prepare.h"
-#include "diagnosis/verdict.h"
+#include "diagnosis/diagnosis.h"
+#include "diagnosis/prepare/prepare.h"
+#include "diagnosis/verdict/verdict.h"
 
 namespace trunnion::diagnosis {
 

@@ -2,21 +2,21 @@
 
 #include <algorithm>
 
-#include "diagnosis/rules.h"
+#include "diagnosis/rules/rules.h"
 
 namespace trunnion::diagnosis {
 namespace {
 
+/// True where a ripple is more likely than the claim, which is the ripple found or another cause.
+/// A claim whose nearest rivals hold between places as well is unsure of its name, not of that.
 bool is_improbable_ripple(const Outcome& f, const Claim& claim) {
     if (claim.probability >= rules::claimed || claim.share < rules::between_part ||
         !f.judgement.interpolates[claim.position])
         return false;
-    return f.design.group(f.model.members[claim.position]).kind == GroupKind::periodic ||
-           std::any_of(claim.rival_groups.begin(), claim.rival_groups.end(),
-                       [&](std::size_t group) {
-                           return f.design.groups()[group].only_rival &&
-                                  f.design.group(group).kind == GroupKind::periodic;
-                       });
+    if (f.design.group(f.model.members[claim.position]).kind == GroupKind::periodic) return true;
+    if (claim.rival_groups.empty()) return false;
+    const Design::Entry& nearest = f.design.groups()[claim.rival_groups.front()];
+    return nearest.only_rival && nearest.group.kind == GroupKind::periodic;
 }
 
 bool is_claimed(const Outcome& f, std::size_t position, const std::vector<Claim>& claims) {
@@ -28,16 +28,6 @@ bool is_claimed(const Outcome& f, std::size_t position, const std::vector<Claim>
 }
 
 }  // namespace
-
-std::vector<double> usual_sizes(Design& design, const Model& model) {
-    const Fit fit = fit_of(design, model);
-    std::vector<double> sizes;
-    for (std::size_t k = 0; k < model.members.size(); ++k)
-        sizes.push_back(design.group(model.members[k])
-                            .feature_values(fit.mean.segment(fit.first[k], fit.size[k]))
-                            .lpNorm<Eigen::Infinity>());
-    return sizes;
-}
 
 std::optional<Judgement> doubted(const Outcome& f, const std::vector<Claim>& claims) {
     Judgement judgement = f.judgement;

@@ -4,13 +4,10 @@
 #include <optional>
 #include <vector>
 
-#include "diagnosis/claims.h"
 #include "diagnosis/diagnosis_report.h"
+#include "diagnosis/verdict/claims.h"
 
 namespace trunnion::diagnosis {
-
-/// The largest value of each member, in typical sizes of its effect (5 um or 40 urad of a table).
-std::vector<double> usual_sizes(Design& design, const Model& model);
 
 /// The judgement with causes that do not hold between their places, if there are any:
 /// - a ripple that the places do not resolve is the more likely one, or anything else than the

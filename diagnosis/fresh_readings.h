@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "diagnosis/column_group.h"
-#include "diagnosis/prepare.h"
+#include "diagnosis/prepare/prepare.h"
+#include "diagnosis/search/column_group.h"
 
 namespace trunnion::diagnosis {
 

@@ -9,12 +9,12 @@
 #include "base/alarm.h"
 #include "base/rounded.h"
 #include "diagnosis/doubted.h"
-#include "diagnosis/open_sides.h"
-#include "diagnosis/outliers.h"
-#include "diagnosis/rules.h"
-#include "diagnosis/solution.h"
+#include "diagnosis/groups/open_sides.h"
+#include "diagnosis/prepare/outliers.h"
+#include "diagnosis/prepare/thinning.h"
+#include "diagnosis/rules/rules.h"
+#include "diagnosis/search/solution.h"
 #include "diagnosis/table_slips.h"
-#include "diagnosis/thinning.h"
 #include "identification/index_errors.h"
 #include "identification/start_pose.h"
 
@@ -52,10 +52,24 @@ double furthest_off(const emulator::Replay& replay, const Eigen::VectorXd& left,
     return most;
 }
 
-/// What the set-up alone leaves of a table with a slip undone, in sigma; empty if it cannot be
-/// fitted.
-std::optional<double> left_by_set_up(const setup::Setup& setup, const records::ReadingTable& as_is,
-                                     const TableSlip& slip) {
+/// Both tables are measured by the sigma of the table as it is: a wrong column that makes an axis
+/// rest where it moves would turn its whole error into scatter at rest. Values in another unit
+/// have a sigma of their own.
+const Eigen::VectorXd& sigma_beside(const Eigen::VectorXd& as_is, const Eigen::VectorXd& right,
+                                    const TableSlip& slip) {
+    return slip.factor == 1.0 && as_is.size() == right.size() ? as_is : right;
+}
+
+struct LeftBySetUp {
+    double left = 0.0;  ///< in sigma
+    Eigen::VectorXd sigma_mm;
+};
+
+/// What the set-up alone leaves of a table with a slip undone; empty if it cannot be fitted.
+/// `sigma_mm`: of the table as it is, or empty.
+std::optional<LeftBySetUp> left_by_set_up(const setup::Setup& setup,
+                                          const records::ReadingTable& as_is, const TableSlip& slip,
+                                          const Eigen::VectorXd& sigma_mm) {
     try {
         const records::ReadingTable table = slip.undo ? undone(slip, as_is) : as_is;
         setup::Setup any = setup;
@@ -66,9 +80,11 @@ std::optional<double> left_by_set_up(const setup::Setup& setup, const records::R
         const auto catalogue = effects::make_catalogue(any, effects::extent_of(any, table));
         const identification::BaseModel base =
             identification::fit_base(any, table, replay, catalogue, any.model.modelled);
-        const double left =
-            furthest_off(replay, base.residual_mm.cwiseQuotient(base.sigma_mm), {}, slip);
-        return std::isfinite(left) ? std::optional(left) : std::nullopt;
+        const double left = furthest_off(
+            replay, base.residual_mm.cwiseQuotient(sigma_beside(sigma_mm, base.sigma_mm, slip)), {},
+            slip);
+        if (!std::isfinite(left)) return std::nullopt;
+        return LeftBySetUp{left, base.sigma_mm};
     } catch (const InputError&) {
         return std::nullopt;  // no table of this machine
     }
@@ -83,13 +99,14 @@ struct BestSlip {
 std::optional<BestSlip> best_slip(const setup::Setup& setup, const records::ReadingTable& all) {
     const auto fewer = thinned(all, enough_readings);
     const records::ReadingTable& table = fewer ? *fewer : all;
-    const auto before = left_by_set_up(setup, table, {});
-    if (!before || *before < rules::mistaken_sigmas) return std::nullopt;
+    const auto before = left_by_set_up(setup, table, {}, {});
+    if (!before || before->left < rules::mistaken_sigmas) return std::nullopt;
     std::optional<BestSlip> best;
     for (TableSlip& slip : slips_of(table)) {
-        const auto left = left_by_set_up(setup, table, slip);
-        if (!left || *left > rules::mistaken_left * *before) continue;
-        if (!best || *left < best->left) best = BestSlip{std::move(slip), *before, *left};
+        const auto left = left_by_set_up(setup, table, slip, before->sigma_mm);
+        if (!left || left->left > rules::mistaken_left * before->left) continue;
+        if (!best || left->left < best->left)
+            best = BestSlip{std::move(slip), before->left, left->left};
     }
     return best;
 }
@@ -101,34 +118,36 @@ std::string sentence(const BestSlip& best) {
         best.slip.words, three_digits(best.left), three_digits(best.before));
 }
 
-/// What a model leaves, in sigma, and how many columns it takes.
+/// What a model leaves, in sigma, and how many columns it takes, those of the set-up included: a
+/// wrong column may give the pose of a part more to follow.
 struct Explained {
     double left = 0.0, columns = 0.0;
 };
 
 Explained explained_by(const Prepared& p, const SearchResult& found, const std::vector<bool>& used,
-                       const TableSlip& slip) {
+                       const TableSlip& slip, const Eigen::VectorXd& sigma_mm) {
     Explained e;
+    e.columns = static_cast<double>(found.design.projection().rank());
     for (const std::size_t m : found.model.members)
         e.columns += static_cast<double>(found.design.group(m).columns());
-    e.left = furthest_off(
-        p.replay, rest_of(p, found.design, found.model).cwiseQuotient(p.base.sigma_mm), used, slip);
+    e.left = furthest_off(p.replay, rest_of(p, found.design, found.model).cwiseQuotient(sigma_mm),
+                          used, slip);
     return e;
 }
 
 /// The same of the table put right: the machine has causes of its own beside the slip.
-std::optional<Explained> explained_when_right(const BestSlip& best, const setup::Setup& setup,
-                                              const records::ReadingTable& table) {
+std::optional<Explained> explained_when_right(const BestSlip& best, const Prepared& as_is) {
     try {
-        const records::ReadingTable right = undone(best.slip, table);
-        Prepared p = prepare(setup, right);
+        const records::ReadingTable right = undone(best.slip, as_is.table);
+        Prepared p = prepare(as_is.replay.setup(), right);
         Round round{std::vector<bool>(p.replay.size(), true), {}, p.base.sigma_mm};
         round.noise = belief_of(p, p.base.residual_mm, round);
         leave_out(p, lone_probe_readings(p, round.used), round);
         take_promising_sides(p);
         KeySearch keys(p.replay, p.base);
         Searched s = search_of(p, round, keys, nullptr, {});
-        return explained_by(p, {s.design, s.model}, round.used, best.slip);
+        return explained_by(p, {s.design, s.model}, round.used, best.slip,
+                            sigma_beside(as_is.base.sigma_mm, p.base.sigma_mm, best.slip));
     } catch (const InputError&) {
         return std::nullopt;
     }
@@ -168,7 +187,7 @@ std::optional<MistakenTable> mistaken_table(const Prepared& p, const SearchResul
     const Eigen::VectorXd sigma = p.base.sigma_mm;
     const double before =
         furthest_off(p.replay, set_up_left_mm(p, found.design).cwiseQuotient(sigma), used, {});
-    const Explained now = explained_by(p, found, used, {});
+    const Explained now = explained_by(p, found, used, {}, sigma);
     if (before < rules::mistaken_sigmas) return std::nullopt;
     // What effects of usual size explain to the noise is no slip, unless it is absurd.
     const std::vector<double> sizes = usual_sizes(found.design, found.model);
@@ -177,7 +196,7 @@ std::optional<MistakenTable> mistaken_table(const Prepared& p, const SearchResul
     if (usual && now.left < to_the_noise && before < absurd) return std::nullopt;
     const auto best = best_slip(p.replay.setup(), p.table);
     if (!best) return wrong_size(p, now.left);
-    const auto right = explained_when_right(*best, p.replay.setup(), p.table);
+    const auto right = explained_when_right(*best, p);
     if (!right) return std::nullopt;
     // Two models of the same readings, each with its own noise: by the logarithm of what they
     // leave, and by the parameters that one has more. Poses and arcs tell independently.
@@ -185,7 +204,7 @@ std::optional<MistakenTable> mistaken_table(const Prepared& p, const SearchResul
     const double right_left = std::max(1.0, right->left);
     const double evidence = blocks * std::log(std::max(1.0, now.left) / right_left) +
                             0.5 * (now.columns - right->columns) * std::log(std::max(2.0, blocks));
-    if (evidence < -rules::least_evidence) return std::nullopt;
+    if (evidence < -std::log(rules::mistaken_odds)) return std::nullopt;  // rather not
     return MistakenTable{sentence(*best), evidence > rules::plain_evidence};
 }
 

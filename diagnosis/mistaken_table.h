@@ -9,9 +9,6 @@
 
 namespace trunnion::diagnosis {
 
-/// Name of a rival: the table is mistaken. No setup contains it.
-inline constexpr const char* mistaken_readings = "readings.mistaken";
-
 struct MistakenTable {
     std::string words;     ///< a sentence
     bool certain = false;  ///< no machine explains the readings as well as this does
@@ -24,7 +21,7 @@ struct SearchResult {
 
 /// The simple change of a table (two columns exchanged, a sign turned, mm for inches, ..) that
 /// explains nearly everything: with it the set-up alone leaves much less than it leaves now, and
-/// the evidence of a search among causes in the table put right is not much below that of the
+/// the evidence of a search among causes in the table put right is well above that of the
 /// causes found in it as it stands. Only looked for where the set-up alone is far from the
 /// readings.
 std::optional<MistakenTable> mistaken_table(const Prepared& prepared, const SearchResult& found,

@@ -6,13 +6,14 @@
 
 #include "base/units.h"
 #include "diagnosis/alike_periods.h"
-#include "diagnosis/candidate_groups.h"
 #include "diagnosis/changes.h"
-#include "diagnosis/machine_jump.h"
-#include "diagnosis/rests.h"
-#include "diagnosis/ripples.h"
-#include "diagnosis/solution.h"
-#include "diagnosis/whole_drivers.h"
+#include "diagnosis/groups/candidate_groups.h"
+#include "diagnosis/groups/machine_jump.h"
+#include "diagnosis/groups/rests.h"
+#include "diagnosis/groups/ripples.h"
+#include "diagnosis/prepare/near_readings.h"
+#include "diagnosis/search/solution.h"
+#include "diagnosis/search/whole_drivers.h"
 #include "effects/settings.h"
 #include "estimation/quantiles.h"
 #include "identification/identify.h"
@@ -223,6 +224,11 @@ NoiseBelief belief_of(const Prepared& p, const Eigen::VectorXd& residual_mm, con
         case NoiseSource::assumed: belief.prior.spread = 0.7; break;
     }
     belief.most = std::exp(2.0 * 2.0 * std::max(0.3, belief.prior.spread));
+    // Nobody knows how far the assumed noise is from the true one, but neighbours do.
+    if (belief.model.source == NoiseSource::assumed)
+        belief.most = std::max(belief.most,
+                               variance_of_neighbours(p.replay, round.used,
+                                                      residual_mm.cwiseQuotient(round.sigma_mm)));
     return belief;
 }
 

@@ -1,9 +1,9 @@
 // One round of the pipeline: rows and noise as they are believed, and the search among models.
 #pragma once
 
-#include "diagnosis/key_search.h"
-#include "diagnosis/search.h"
-#include "diagnosis/verdict.h"
+#include "diagnosis/groups/key_search.h"
+#include "diagnosis/search/search.h"
+#include "diagnosis/verdict/verdict.h"
 
 namespace trunnion::diagnosis {
 

@@ -1,6 +1,6 @@
 #include "diagnosis/set_up_alone.h"
 
-#include "diagnosis/solution.h"
+#include "diagnosis/search/solution.h"
 #include "estimation/ranked_least_squares.h"
 
 namespace trunnion::diagnosis {

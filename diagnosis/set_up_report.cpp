@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "diagnosis/usual_zero.h"
+#include "diagnosis/prepare/usual_zero.h"
 #include "identification/index_errors.h"
 #include "identification/set_up_words.h"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "diagnosis/fresh_readings.h"
-#include "diagnosis/solution.h"
+#include "diagnosis/search/solution.h"
 
 namespace trunnion::inline base {
 class SeededNoise;

@@ -1,12 +1,13 @@
+#include "diagnosis/store_causes.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
-#include "diagnosis/programmed_points.h"
-#include "diagnosis/rules.h"
-#include "diagnosis/store_gap.h"
+#include "diagnosis/rules/rules.h"
+#include "diagnosis/stores/programmed_points.h"
 
 namespace trunnion::diagnosis {
 namespace {

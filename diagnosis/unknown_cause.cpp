@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "diagnosis/reading_sizes.h"
-#include "diagnosis/rules.h"
+#include "diagnosis/rules/rules.h"
 #include "estimation/distributions.h"
 
 namespace trunnion::diagnosis {

@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "diagnosis/doubted.h"
-#include "diagnosis/rules.h"
+#include "diagnosis/rules/rules.h"
+#include "diagnosis/search/solution.h"
 #include "diagnosis/set_up_alone.h"
-#include "diagnosis/solution.h"
 #include "effects/settings.h"
 #include "estimation/free_form.h"
 #include "estimation/quantiles.h"

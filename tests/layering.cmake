@@ -1,6 +1,6 @@
 # Fails when a room includes a room that cmake/rooms.cmake does not list for it, when a listed
 # permission is used by no #include, and when a room's names stand in another namespace than
-# trunnion::ROOM. Inside controller/ the subjects of cmake/controller_order.cmake may include only
+# trunnion::ROOM (a room inside a room may use the namespace of the room around it). Inside controller/ the subjects of cmake/controller_order.cmake may include only
 # those before them.
 cmake_minimum_required(VERSION 3.25)
 include(${ROOT}/cmake/rooms.cmake)
@@ -17,10 +17,11 @@ foreach(line IN LISTS TRUNNION_ROOMS)
   set(unused ${allowed})
   file(GLOB files ${ROOT}/${name}/*.h ${ROOT}/${name}/*.cpp)
   string(REPLACE "/" "::" space "trunnion::${name}")
+  string(REGEX REPLACE "/.*" "" around "trunnion::${name}")
   foreach(file IN LISTS files)
     file(STRINGS ${file} own REGEX "^namespace trunnion::(inline )?[a-z:_]+ {$")
     string(REPLACE "inline " "" own "${own}")
-    if(NOT own MATCHES "namespace ${space}(::[a-z_]+)? {")
+    if(NOT own MATCHES "namespace (${space}|${around})(::[a-z_]+)? {")
       message(SEND_ERROR "${file}: its namespace is not ${space}")
       math(EXPR faults "${faults} + 1")
     endif()

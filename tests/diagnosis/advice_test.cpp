@@ -6,9 +6,9 @@
 #include <cstdlib>
 #include <set>
 
+#include "diagnosis/advice/measurement_repeats.h"
+#include "diagnosis/advice/measurements.h"
 #include "diagnosis/diagnosis.h"
-#include "diagnosis/measurement_repeats.h"
-#include "diagnosis/measurements.h"
 #include "tests/support/campaign.h"
 #include "tests/support/drawn_effects.h"
 #include "tests/support/laser_lines.h"

@@ -10,9 +10,9 @@
 
 #include "base/random.h"
 #include "base/units.h"
-#include "diagnosis/candidate_groups.h"
 #include "diagnosis/diagnosis.h"
-#include "diagnosis/places.h"
+#include "diagnosis/groups/candidate_groups.h"
+#include "diagnosis/prepare/places.h"
 #include "diagnosis/round.h"
 #include "effects/settings.h"
 #include "emulator/replay.h"

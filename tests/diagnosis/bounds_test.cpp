@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "diagnosis/diagnosis.h"
-#include "diagnosis/ripples.h"
+#include "diagnosis/groups/ripples.h"
 #include "tests/support/campaign.h"
 #include "tests/support/diagnosed.h"
 #include "tests/support/said.h"

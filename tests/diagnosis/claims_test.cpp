@@ -1,11 +1,11 @@
 // Probabilities of claims on made-up columns, where it is known what can be told apart.
-#include "diagnosis/claims.h"
+#include "diagnosis/verdict/claims.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "base/random.h"
-#include "diagnosis/rules.h"
+#include "diagnosis/rules/rules.h"
 
 namespace trunnion {
 namespace {

@@ -1,5 +1,5 @@
 // A log that is faster than its sensor writes each reading several times.
-#include "diagnosis/copies.h"
+#include "diagnosis/prepare/copies.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "base/random.h"
-#include "diagnosis/heldout.h"
+#include "diagnosis/search/heldout.h"
 
 namespace trunnion {
 namespace {

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "diagnosis/diagnosis.h"
-#include "diagnosis/solution.h"
+#include "diagnosis/search/solution.h"
 #include "tests/support/campaign.h"
 
 namespace trunnion {

@@ -1,7 +1,7 @@
 // Keys of an effect beside columns that are fitted again with it.
 #include <catch2/catch.hpp>
 
-#include "diagnosis/key_search.h"
+#include "diagnosis/groups/key_search.h"
 #include "tests/support/campaign.h"
 
 namespace trunnion {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "diagnosis/diagnosis.h"
-#include "diagnosis/ripples.h"
-#include "diagnosis/verdict.h"
+#include "diagnosis/groups/ripples.h"
+#include "diagnosis/verdict/verdict.h"
 #include "tests/support/campaign.h"
 
 namespace trunnion {

@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "base/random.h"
-#include "diagnosis/heldout.h"
+#include "diagnosis/search/heldout.h"
 #include "tests/support/campaign.h"
 
 namespace trunnion {

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "diagnosis/measurements.h"
+#include "diagnosis/advice/measurements.h"
 #include "emulator/run.h"
 #include "interpreter/program_folders.h"
 #include "tests/support/campaign.h"

@@ -2,8 +2,8 @@
 // reading tells apart stays one.
 #include <catch2/catch.hpp>
 
-#include "diagnosis/measurements.h"
-#include "diagnosis/next_measurement.h"
+#include "diagnosis/advice/measurements.h"
+#include "diagnosis/advice/next_measurement.h"
 #include "emulator/run.h"
 #include "interpreter/program_folders.h"
 #include "tests/support/campaign.h"

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "base/alarm.h"
-#include "diagnosis/measurements.h"
+#include "diagnosis/advice/measurements.h"
 #include "diagnosis/table_slips.h"
 #include "tests/support/campaign.h"
 #include "tests/support/diagnosed.h"

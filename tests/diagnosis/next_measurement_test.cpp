@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 #include <set>
 
+#include "diagnosis/advice/measurements.h"
 #include "diagnosis/diagnosis.h"
-#include "diagnosis/measurements.h"
 #include "emulator/run.h"
 #include "identification/identify.h"
 #include "interpreter/program_folders.h"

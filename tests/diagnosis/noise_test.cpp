@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 
 #include "base/units.h"
-#include "diagnosis/candidate_groups.h"
 #include "diagnosis/diagnosis.h"
+#include "diagnosis/groups/candidate_groups.h"
 #include "tests/support/campaign.h"
 
 namespace trunnion {

@@ -1,5 +1,5 @@
 // Readings that are left out before anything is explained: few, and not side by side.
-#include "diagnosis/outliers.h"
+#include "diagnosis/prepare/outliers.h"
 
 #include <catch2/catch.hpp>
 

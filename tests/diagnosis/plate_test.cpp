@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "diagnosis/candidate_groups.h"
 #include "diagnosis/diagnosis.h"
+#include "diagnosis/groups/candidate_groups.h"
 #include "effects/settings.h"
 #include "emulator/replay.h"
 #include "tests/support/diagnosed.h"

@@ -2,8 +2,8 @@
 // is asked for is taken, for either rival as the truth, and tells them apart.
 #include <catch2/catch.hpp>
 
+#include "diagnosis/advice/measurement_repeats.h"
 #include "diagnosis/diagnosis.h"
-#include "diagnosis/measurement_repeats.h"
 #include "effects/settings.h"
 #include "emulator/replay.h"
 #include "tests/support/campaign.h"

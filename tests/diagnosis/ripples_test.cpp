@@ -1,10 +1,10 @@
 // Ripples that positions do not resolve, and the sets of stores that explain programmed points:
 // what is offered, and what is not.
-#include "diagnosis/ripples.h"
+#include "diagnosis/groups/ripples.h"
 
 #include <catch2/catch.hpp>
 
-#include "diagnosis/store_sets.h"
+#include "diagnosis/stores/store_sets.h"
 #include "tests/support/campaign.h"
 
 namespace trunnion {

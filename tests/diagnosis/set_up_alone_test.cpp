@@ -2,10 +2,10 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "diagnosis/contenders.h"
 #include "diagnosis/diagnosis_report.h"
 #include "diagnosis/round.h"
-#include "diagnosis/verdict.h"
+#include "diagnosis/verdict/contenders.h"
+#include "diagnosis/verdict/verdict.h"
 #include "diagnosis/written_setup.h"
 #include "tests/support/campaign.h"
 

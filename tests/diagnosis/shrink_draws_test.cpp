@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "diagnosis/candidate_groups.h"
+#include "diagnosis/groups/candidate_groups.h"
 #include "diagnosis/shrink_interval.h"
 #include "tests/support/campaign.h"
 

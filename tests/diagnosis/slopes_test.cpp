@@ -4,11 +4,11 @@
 #include <catch2/catch.hpp>
 
 #include "base/random.h"
-#include "diagnosis/candidate_groups.h"
-#include "diagnosis/contenders.h"
 #include "diagnosis/diagnosis.h"
-#include "diagnosis/rules.h"
-#include "diagnosis/solution.h"
+#include "diagnosis/groups/candidate_groups.h"
+#include "diagnosis/rules/rules.h"
+#include "diagnosis/search/solution.h"
+#include "diagnosis/verdict/contenders.h"
 #include "tests/support/campaign.h"
 #include "tests/support/said.h"
 

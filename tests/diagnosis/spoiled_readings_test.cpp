@@ -1,7 +1,7 @@
 // Readings that no error of the machine made: mistaken stars, a slip that comes and goes, a laser
 // whose zero moves from cycle to cycle. The files are made by tests/imports/like_real/make_sets.py,
 // which shares nothing with the product.
-#include "diagnosis/spoiled_readings.h"
+#include "diagnosis/prepare/spoiled_readings.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

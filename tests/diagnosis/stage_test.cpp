@@ -8,7 +8,7 @@
 #include <random>
 
 #include "diagnosis/diagnosis.h"
-#include "diagnosis/prepare.h"
+#include "diagnosis/prepare/prepare.h"
 #include "effects/settings.h"
 #include "emulator/replay.h"
 #include "setup/setup.h"

@@ -1,8 +1,9 @@
 // Stores in force beside the machine's gap: shares, rivals and words, on made-up parts.
+#include "diagnosis/store_causes.h"
+
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "diagnosis/store_gap.h"
 #include "tests/support/campaign.h"
 
 namespace trunnion {

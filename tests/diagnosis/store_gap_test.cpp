@@ -1,6 +1,6 @@
 // A store in force that is not the declared one, told by the programmed points (px_mm ..): closed
 // forms of the 2021 paper on two table machines, a head by its own arithmetic, and whole runs.
-#include "diagnosis/store_gap.h"
+#include "diagnosis/stores/store_gap.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

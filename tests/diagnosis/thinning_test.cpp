@@ -1,5 +1,5 @@
 // Very long tables: an even choice keeps what sides, velocities and zeros come from.
-#include "diagnosis/thinning.h"
+#include "diagnosis/prepare/thinning.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,10 +1,10 @@
 // The verdict and its words, and readings that are left out as wild.
-#include "diagnosis/verdict.h"
+#include "diagnosis/verdict/verdict.h"
 
 #include <catch2/catch.hpp>
 
 #include "base/random.h"
-#include "diagnosis/outliers.h"
+#include "diagnosis/prepare/outliers.h"
 
 namespace trunnion {
 

@@ -4,9 +4,9 @@
 #include <set>
 
 #include "base/random.h"
-#include "diagnosis/noise.h"
-#include "diagnosis/prepare.h"
-#include "diagnosis/target_visits.h"
+#include "diagnosis/prepare/noise.h"
+#include "diagnosis/prepare/prepare.h"
+#include "diagnosis/prepare/target_visits.h"
 #include "tests/support/campaign.h"
 #include "tests/support/laser_lines.h"
 

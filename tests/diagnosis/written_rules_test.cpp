@@ -3,7 +3,8 @@
 #include <catch2/catch.hpp>
 
 #include "diagnosis/doubted.h"
-#include "diagnosis/rules.h"
+#include "diagnosis/rules/rules.h"
+#include "diagnosis/search/solution.h"
 #include "diagnosis/written_setup.h"
 #include "tests/support/campaign.h"
 

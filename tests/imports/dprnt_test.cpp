@@ -6,7 +6,7 @@
 #include <memory>
 #include <sstream>
 
-#include "diagnosis/measurements.h"
+#include "diagnosis/advice/measurements.h"
 #include "effects/settings.h"
 #include "emulator/run.h"
 #include "imports/import.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/measurements.h"
+#include "diagnosis/advice/measurements.h"
 #include "effects/settings.h"
 #include "emulator/run.h"
 #include "interpreter/program_folders.h"

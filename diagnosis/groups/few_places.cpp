@@ -1,0 +1,108 @@
+#include "diagnosis/groups/few_places.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "base/units.h"
+#include "diagnosis/groups/ripples.h"
+#include "diagnosis/rules/rules.h"
+
+namespace trunnion::diagnosis {
+namespace {
+
+/// The widest way between two neighbouring positions of a rotary axis, rad. Over more than a turn
+/// the positions of all turns are one circle.
+double widest_step_rad(const Prepared& prepared, Axis axis) {
+    std::set<double> places_rad;
+    for (std::size_t i = 0; i < prepared.replay.size(); ++i)
+        places_rad.insert(prepared.replay.sample(i).position[axis]);
+    if (*places_rad.rbegin() - *places_rad.begin() > 2.0 * pi) {
+        std::set<double> circle_rad;
+        for (const double q : places_rad)
+            circle_rad.insert(q - 2.0 * pi * std::floor(q / (2.0 * pi)));
+        circle_rad.insert(*circle_rad.begin() + 2.0 * pi);
+        places_rad = std::move(circle_rad);
+    }
+    double widest = 0.0, before = *places_rad.begin();
+    for (const double place : places_rad) {
+        widest = std::max(widest, place - before);
+        before = place;
+    }
+    return widest;
+}
+
+/// True for harmonics of a turn with a wave that has a crest and a trough between two neighbouring
+/// positions: what they do there is not read.
+bool waves_between_places(const Prepared& prepared, const ColumnGroup& group, Axis axis) {
+    int order = 0;
+    for (const std::size_t k : group.parameters)
+        order = std::max(order, group.effect->parameters[k].order);
+    constexpr double even = 1.01;  // positions in equal steps are rounded
+    return order > 0 && widest_step_rad(prepared, axis) > even * pi / order;
+}
+
+bool shows_no_displacement(const Prepared& p, std::size_t row) {
+    return p.replay.contact(row).device == records::Device::angle;
+}
+
+struct TwoPlaces {
+    double low = HUGE_VAL, high = -HUGE_VAL;  ///< mm
+    bool is_high(double q) const { return 2.0 * q > low + high; }
+};
+
+/// The two positions of an axis; none where it stands at one, or at three and more.
+std::optional<TwoPlaces> two_places(const Prepared& p, Axis axis) {
+    constexpr double same_place = 1e-3;  // of the way
+    TwoPlaces places;
+    for (std::size_t i = 0; i < p.replay.size(); ++i) {
+        if (shows_no_displacement(p, i)) continue;
+        places.low = std::min(places.low, p.replay.sample(i).position[axis]);
+        places.high = std::max(places.high, p.replay.sample(i).position[axis]);
+    }
+    const double near = same_place * (places.high - places.low);
+    if (!(near > 0.0)) return std::nullopt;
+    for (std::size_t i = 0; i < p.replay.size(); ++i) {
+        const double q = p.replay.sample(i).position[axis];
+        if (!shows_no_displacement(p, i) && q - places.low > near && places.high - q > near)
+            return std::nullopt;
+    }
+    return places;
+}
+
+}  // namespace
+
+bool is_at_two_places(const Prepared& p, Axis axis) {
+    return two_places(p, axis).has_value();
+}
+
+bool is_squareness_here(const Prepared& p, const effects::Effect& effect) {
+    if (effect.kind != effects::EffectKind::lateral_play) return false;
+    const std::optional<TwoPlaces> places = two_places(p, *effect.axis);
+    if (!places) return false;
+    bool seen[2][2] = {};  // at the low and the high position, travelling to - and to +
+    for (std::size_t i = 0; i < p.replay.size(); ++i) {
+        const int travel = p.replay.sample(i).travel[index_of(*effect.axis)];
+        if (travel != 0 && !shows_no_displacement(p, i))
+            seen[places->is_high(p.replay.sample(i).position[*effect.axis])][travel > 0] = true;
+    }
+    return !(seen[0][0] && seen[0][1]) && !(seen[1][0] && seen[1][1]);
+}
+
+bool bends_at_few_places(const Design& design, const Prepared& prepared, const Model& model,
+                         std::size_t position) {
+    const ColumnGroup& group = design.group(model.members[position]);
+    if (group.kind != GroupKind::textbook || !group.effect->axis) return false;
+    const Axis axis = *group.effect->axis;
+    if (prepared.table.names.is_rotary(axis)) return waves_between_places(prepared, group, axis);
+    const auto bends = [&](std::size_t m) {
+        const ColumnGroup& table = design.group(m);
+        return table.kind == GroupKind::table && table.table.axis.axis == axis;
+    };
+    return place_count(prepared, axis) < rules::bend_places &&
+           (group.columns() > 1 || group.effect->kind == effects::EffectKind::straightness ||
+            std::any_of(model.members.begin(), model.members.end(), bends));
+}
+
+}  // namespace trunnion::diagnosis

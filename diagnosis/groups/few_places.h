@@ -1,0 +1,22 @@
+// Axes that were read at few places: what is not told there, and what holds there alone.
+#pragma once
+
+#include "diagnosis/prepare/prepare.h"
+#include "diagnosis/search/search.h"
+
+namespace trunnion::diagnosis {
+
+/// True where a linear axis stands at two positions only in all readings that show displacements.
+bool is_at_two_places(const Prepared& prepared, Axis axis);
+/// True for a play sideways of an axis that reaches each of two positions from one side. There it
+/// is the squareness in each direction, and one cause of two parameters must not stand for two of
+/// one: it is offered for each direction by itself.
+bool is_squareness_here(const Prepared& prepared, const effects::Effect& effect);
+
+/// True for a textbook form with a bend, or with a table beside it, of a linear axis that was read
+/// at so few places that other forms would do the same there; and for harmonics of a rotary axis
+/// with a gap between its places.
+bool bends_at_few_places(const Design& design, const Prepared& prepared, const Model& model,
+                         std::size_t position);
+
+}  // namespace trunnion::diagnosis

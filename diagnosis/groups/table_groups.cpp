@@ -1,0 +1,278 @@
+// Errors of any form: free forms of the error motions of every axis.
+#include <algorithm>
+#include <cmath>
+
+#include "base/units.h"
+#include "diagnosis/groups/candidate_groups.h"
+#include "diagnosis/rules/rules.h"
+#include "estimation/free_form.h"
+
+namespace trunnion::diagnosis {
+namespace {
+
+using effects::EffectKind;
+
+/// One family of error motions of an axis, and the functions that belong to its textbook form.
+struct Family {
+    EffectKind motion;
+    bool rotary, along, angular;  ///< along: in the axis's own direction, else perpendicular to it
+    bool all_angles;              ///< all three directions
+    std::size_t knots;            ///< maximum
+    Eigen::Index shapes;          ///< maximum for one direction
+    int owned;                    ///< number of polynomials, or of harmonics of a turn
+    double log_prior = 0.0;       ///< relative to the others
+};
+
+/// The bow of a straightness stays in its table, as in that of the angles: seen through one arm
+/// they are the same curve, and one of them must not need a second cause for its bow.
+constexpr Family families[] = {
+    {EffectKind::positioning, false, true, false, false, 40, 24, 2},
+    {EffectKind::straightness, false, false, false, false, 24, 12, 2},
+    {EffectKind::angular, false, false, true, true, 16, 8, 2, rules::by_an_arm},
+    {EffectKind::backlash, false, true, false, false, 24, 12, 1},
+    {EffectKind::positioning, true, true, true, false, 40, 24, 2},
+    {EffectKind::radial, true, false, false, false, 24, 12, 3},
+    {EffectKind::axial, true, true, false, false, 24, 12, 2},
+    {EffectKind::tilt, true, false, true, false, 24, 12, 2}};
+constexpr std::size_t most_targets = 128;  ///< of a table with a value for each
+constexpr double whole_turn_rad = 5.0;     ///< a wider range counts as a whole turn
+constexpr double least_range_mm = 1.0, least_range_rad = 0.05;
+constexpr int last_order = 24;
+constexpr int last_single_order = 8;
+constexpr double soft_orders[] = {4.0, 12.0};  ///< harmonics decrease beyond these
+
+std::vector<double> places_of(const Prepared& p, Axis axis) {
+    std::vector<double> places;
+    for (std::size_t i = 0; i < p.replay.size(); ++i)
+        places.push_back(p.replay.sample(i).position[axis]);
+    return places;
+}
+
+std::vector<int> directions_of(const Family& family, const kinematics::AxisGeometry& axis) {
+    std::vector<int> directions;
+    for (int d = 0; d < 3; ++d)
+        if (family.all_angles || (d == effects::main_direction(axis)) == family.along)
+            directions.push_back(d + (family.angular ? 3 : 0));
+    return directions;
+}
+
+/// The same shapes for each direction.
+Eigen::MatrixXd for_each_direction(const Eigen::MatrixXd& shape, std::size_t directions) {
+    const auto count = static_cast<Eigen::Index>(directions);
+    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(count * shape.rows(), count * shape.cols());
+    for (Eigen::Index k = 0; k < count; ++k)
+        all.block(k * shape.rows(), k * shape.cols(), shape.rows(), shape.cols()) = shape;
+    return all;
+}
+
+/// True where the textbook effect of a rotary axis has a slope: positioning, if the setup limits
+/// the travel to less than a turn.
+bool has_slope(const Prepared& p, const Family& family, Axis axis) {
+    const effects::Effect* effect = effects::find_effect(p.catalogue, family.motion, axis);
+    return effect && std::any_of(effect->parameters.begin(), effect->parameters.end(),
+                                 [](const auto& q) { return q.name == "slope_rad_per_rad"; });
+}
+
+/// The textbook form at the knots: polynomials, or harmonics of part of a turn. A slope that the
+/// textbook form lacks stays in the table.
+Eigen::MatrixXd owned_at(const Prepared& p, const Family& family, const TableForm& table) {
+    const std::vector<double>& knots = table.knots;
+    if (!family.rotary) return estimation::polynomials_at(knots, family.owned);
+    const int powers = has_slope(p, family, table.axis.axis) ? 2 : 1;
+    Eigen::MatrixXd owned(static_cast<Eigen::Index>(knots.size()), powers + 2 * family.owned);
+    owned.leftCols(powers) = estimation::polynomials_at(knots, powers);
+    for (std::size_t k = 0; k < knots.size(); ++k)
+        for (int n = 1; n <= family.owned; ++n) {
+            const Eigen::Index at = powers + 2 * (n - 1);
+            owned(static_cast<Eigen::Index>(k), at) = std::cos(n * knots[k]);
+            owned(static_cast<Eigen::Index>(k), at + 1) = std::sin(n * knots[k]);
+        }
+    return owned;
+}
+
+/// A shape of one direction and its share of the free form's prior.
+struct Shape {
+    Eigen::MatrixXd columns;
+    double log_prior = 0.0;
+};
+
+/// `owned`: the textbook form at the knots. `each`: one of the shapes has a value of its own at
+/// each knot, as many as there are: what a truncated one lacks would be taken for a ripple.
+std::vector<Shape> shapes_at_knots(const Family& family, const std::vector<double>& knots,
+                                   const Eigen::MatrixXd& owned, bool each) {
+    std::vector<Shape> shapes;
+    const std::vector<double> lengths = estimation::correlation_lengths(knots, each);
+    for (const double length : lengths) {
+        const bool whole = each && length == lengths.back();
+        shapes.push_back({estimation::smooth_shapes(
+            knots, length, owned,
+            whole ? static_cast<Eigen::Index>(knots.size()) : family.shapes)});
+    }
+    std::erase_if(shapes, [](const Shape& s) { return s.columns.cols() == 0; });
+    for (Shape& s : shapes) s.log_prior = -std::log(static_cast<double>(shapes.size()));
+    return shapes;
+}
+
+/// All harmonics, decreasing, or a single one of a low order: poles of a resolver, lobes of a
+/// bearing. Half of the prior for each kind.
+std::vector<Shape> shapes_of_turn(const TableForm& table) {
+    std::vector<Shape> shapes;
+    for (const double soft : soft_orders) {
+        Eigen::VectorXd size(2 * table.orders);
+        for (int n = 0; n < table.orders; ++n)
+            size.segment(2 * n, 2).setConstant(1.0 /
+                                               (1.0 + std::pow((table.first_order + n) / soft, 2)));
+        shapes.push_back({Eigen::MatrixXd((size * std::sqrt(2.0) / size.norm()).asDiagonal()),
+                          -std::log(2.0 * std::size(soft_orders))});
+    }
+    const int singles = std::min(last_single_order - table.first_order + 1, table.orders);
+    for (int n = 0; n < singles; ++n)
+        shapes.push_back(
+            {Eigen::MatrixXd::Identity(2 * table.orders, 2 * table.orders).middleCols(2 * n, 2),
+             -std::log(2.0 * singles)});
+    return shapes;
+}
+
+/// True when the readings see the play from both sides on most of the range; elsewhere it cannot
+/// be told from positioning.
+bool sees_both_sides(const Prepared& p, const TableForm& table) {
+    std::vector<int> sides(table.knots.size(), 0);
+    const Eigen::VectorXd column = identification::effect_column(
+        p.replay, p.base.gradient, {*table.play, table.play->zeros(), 0});
+    for (std::size_t i = 0; i < p.replay.size(); ++i) {
+        const int travel = p.replay.sample(i).travel[index_of(table.axis.axis)];
+        if (travel == 0 || column(static_cast<Eigen::Index>(i)) == 0.0) continue;
+        const auto [knot, weight] =
+            estimation::place_between(table.knots, p.replay.sample(i).position[table.axis.axis]);
+        sides[static_cast<std::size_t>(knot) + (weight > 0.5 ? 1 : 0)] |= travel > 0 ? 1 : 2;
+    }
+    const auto both = std::count(sides.begin(), sides.end(), 3);
+    return both >= 4 && 2 * static_cast<std::size_t>(both) >= sides.size();
+}
+
+/// The targets of a laser or an autocollimator, if they were visited again; else none. Other
+/// readings have no targets, and at a place read once an error of its own is noise.
+std::vector<double> targets_of(const Prepared& p, const std::vector<double>& places) {
+    for (std::size_t i = 0; i < p.replay.size(); ++i)
+        if (!reads_targets(p.replay.contact(i).device)) return {};
+    std::vector<double> targets = estimation::knots_of(places, most_targets + 1);
+    const bool again = places.size() >= 2 * targets.size();
+    return again && targets.size() <= most_targets ? targets : std::vector<double>{};
+}
+
+/// An error along the axis with a value of its own at each target.
+bool has_targets(const Prepared& p, const Family& family, const TableForm& table) {
+    return family.along && family.motion == EffectKind::positioning &&
+           table.knots == targets_of(p, places_of(p, table.axis.axis));
+}
+
+bool is_whole_turn(const kinematics::AxisGeometry& axis, const std::vector<double>& places) {
+    const auto [low, high] = std::minmax_element(places.begin(), places.end());
+    return axis.rotary && *high - *low > whole_turn_rad;
+}
+
+/// The highest harmonic that positions in equal steps show; above it are aliases of lower ones.
+int last_on_grid(const std::vector<double>& places) {
+    constexpr double even = 1e-3;
+    const std::vector<double> steps = estimation::knots_of(places, 2 * last_order + 2);
+    if (steps.size() < 2 || steps.size() > 2 * last_order) return last_order;
+    const double step = steps[1] - steps[0];
+    for (std::size_t k = 1; k < steps.size(); ++k)
+        if (std::abs(steps[k] - steps[k - 1] - step) > even * step) return last_order;
+    return std::max(1, static_cast<int>(std::floor(pi / step + even)));
+}
+
+TableForm form_of(const Prepared& p, const Family& family, const kinematics::AxisGeometry& axis) {
+    TableForm table{family.motion, axis, directions_of(family, axis), {}, 0, 0};
+    const std::vector<double> places = places_of(p, axis.axis);
+    if (is_whole_turn(axis, places)) {
+        table.first_order = family.owned + 1;
+        const int last = family.shapes >= 24 ? last_order : last_order / 2;
+        table.orders = std::min(last, last_on_grid(places)) - family.owned;
+    } else {
+        table.knots = estimation::knots_of(places, family.knots);
+        if (family.along && family.motion == EffectKind::positioning)
+            if (auto targets = targets_of(p, places); !targets.empty())
+                table.knots = std::move(targets);
+    }
+    return table;
+}
+
+/// The bow of positions and of angles is a table already; that of other motions is in their
+/// textbook form.
+std::size_t least_knots(const Family& family) {
+    const bool bow_is_table =
+        family.motion == EffectKind::positioning || family.motion == EffectKind::angular;
+    return bow_is_table ? 3 : 4;
+}
+
+/// The shapes of a free form; of a turn with knots, which has its harmonics beside it, that alone
+/// with a value of its own at each.
+std::vector<Shape> shapes_of(const Prepared& p, const Family& family, const TableForm& table,
+                             const Eigen::MatrixXd& owned) {
+    if (table.knots.empty()) return shapes_of_turn(table);
+    std::vector<Shape> shapes =
+        shapes_at_knots(family, table.knots, owned, has_targets(p, family, table));
+    if (is_whole_turn(table.axis, table.knots) && !shapes.empty())
+        shapes = {{std::move(shapes.back().columns), std::log(0.5)}};
+    return shapes;
+}
+
+void add_table(Design& design, const Prepared& p, const Whitener& whitener, const Family& family,
+               const TableForm& table) {
+    const Eigen::MatrixXd owned =
+        table.knots.empty() ? Eigen::MatrixXd() : owned_at(p, family, table);
+    const std::vector<Shape> shapes = shapes_of(p, family, table, owned);
+    if (shapes.empty()) return;
+    Eigen::MatrixXd white = table_features(p.replay, p.base.gradient, table);
+    whitener.apply(white);
+    const Eigen::Index first = design.add_features(white);
+    const auto group_of = [&](const Eigen::MatrixXd& shape) {
+        ColumnGroup group;
+        group.kind = GroupKind::table;
+        group.name = effects::effect_name(table.axis.name, family.motion);
+        group.table = table;
+        group.shape = for_each_direction(shape, table.directions.size());
+        for (Eigen::Index k = 0; k < white.cols(); ++k) group.features.push_back(first + k);
+        return group;
+    };
+    for (const Shape& shape : shapes) {
+        ColumnGroup group = group_of(shape.columns);
+        group.log_prior = rules::table_prior + family.log_prior + shape.log_prior;
+        design.add(std::move(group));
+    }
+    if (table.knots.empty()) return;
+    ColumnGroup line = group_of(owned);
+    line.is_line = true;
+    line.component = "line";  // so that it is no other form of the table
+    design.hide(design.add(std::move(line)));
+}
+
+void add_family(Design& design, const Prepared& p, const Whitener& whitener, const Family& family,
+                const kinematics::AxisGeometry& axis) {
+    TableForm table = form_of(p, family, axis);
+    if (table.orders <= 0 && table.knots.size() < least_knots(family)) return;
+    if (family.motion == EffectKind::backlash) {
+        table.play = effects::find_effect(p.catalogue, family.motion, axis.axis);
+        if (!table.play || !sees_both_sides(p, table)) return;
+    }
+    add_table(design, p, whitener, family, table);
+    if (table.orders == 0 || family.motion != EffectKind::positioning) return;
+    table.orders = table.first_order = 0;
+    table.knots = targets_of(p, places_of(p, axis.axis));
+    if (table.knots.size() >= least_knots(family)) add_table(design, p, whitener, family, table);
+}
+
+}  // namespace
+
+void add_table_groups(Design& design, const Prepared& prepared, const Whitener& whitener) {
+    for (const kinematics::AxisGeometry& axis : prepared.base.setup.machine.chain.axes()) {
+        const std::vector<double> places = places_of(prepared, axis.axis);
+        const auto [low, high] = std::minmax_element(places.begin(), places.end());
+        if (*high - *low < (axis.rotary ? least_range_rad : least_range_mm)) continue;
+        for (const Family& family : families)
+            if (family.rotary == axis.rotary) add_family(design, prepared, whitener, family, axis);
+    }
+}
+
+}  // namespace trunnion::diagnosis

@@ -1,0 +1,226 @@
+#include "diagnosis/prepare/noise.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace trunnion::diagnosis {
+namespace {
+
+Eigen::MatrixXd touch_covariance(const emulator::Replay& replay,
+                                 const std::vector<Eigen::Index>& rows, const DeviceNoise& noise) {
+    const auto n = static_cast<Eigen::Index>(rows.size());
+    Eigen::MatrixXd v(n, n);
+    for (Eigen::Index i = 0; i < n; ++i)
+        for (Eigen::Index j = 0; j < n; ++j) {
+            const Vector3& a =
+                replay.contact(static_cast<std::size_t>(rows[static_cast<std::size_t>(i)]))
+                    .direction_M;
+            const Vector3& b =
+                replay.contact(static_cast<std::size_t>(rows[static_cast<std::size_t>(j)]))
+                    .direction_M;
+            v(i, j) = noise.scale * noise.scale *
+                      (noise.shared * a.dot(b) + (i == j ? 1.0 - noise.shared : 0.0));
+        }
+    return v;
+}
+
+/// Innovations of "memory + white" noise: the Kalman filter of the shared state predicts each step.
+struct PassFilter {
+    explicit PassFilter(const DeviceNoise& noise)
+        : memory(noise.memory),
+          shared(noise.scale * noise.scale * noise.shared),
+          white(noise.scale * noise.scale * (1.0 - noise.shared) + 1e-12),
+          variance(shared) {}
+
+    double memory, shared, white;
+    double variance;  ///< of the predicted state
+    double gain = 0.0, deviation = 1.0;
+
+    void step() {
+        const double s = variance + white;
+        gain = variance / s;
+        deviation = std::sqrt(s);
+        const double left = variance * (1.0 - gain);
+        variance = memory * memory * left + (1.0 - memory * memory) * shared;
+    }
+};
+
+constexpr double same_angle_rad = 1e-7;  ///< below any control's increment
+constexpr double long_pause = 10.0;      ///< relative to the shortest one within a visit
+
+/// True when a rotary axis was elsewhere between two table rows: it came to the pose again.
+bool turned_between(const records::ReadingTable& table, std::size_t before, std::size_t row) {
+    for (std::size_t i = before + 1; i < row; ++i)
+        for (const Axis axis : table.axes)
+            if (table.names.is_rotary(axis) &&
+                std::abs(table.rows[i].commanded[axis] - table.rows[row].commanded[axis]) >
+                    same_angle_rad)
+                return true;
+    return false;
+}
+
+/// True when a touch in a direction that the visit has already touched follows a long pause.
+bool touches_again(const emulator::Replay& replay, const records::ReadingTable& table,
+                   const std::vector<Eigen::Index>& visit, std::size_t i) {
+    const auto time_s = [&](std::size_t k) { return table.rows[replay.table_row(k)].time_s; };
+    bool again = false;
+    double shortest_s = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < visit.size(); ++k) {
+        const auto at = static_cast<std::size_t>(visit[k]);
+        again =
+            again || (replay.contact(at).direction_M - replay.contact(i).direction_M).norm() < 1e-3;
+        if (k > 0)
+            shortest_s =
+                std::min(shortest_s, time_s(at) - time_s(static_cast<std::size_t>(visit[k - 1])));
+    }
+    const double pause_s = time_s(i) - time_s(static_cast<std::size_t>(visit.back()));
+    return again && pause_s > long_pause * shortest_s;
+}
+
+/// Readings of a pass of a laser or autocollimator that are left out together: eight, of few
+/// readings a sixth of them, so that what is left determines an effect.
+std::size_t longest_of_pass(const emulator::Replay& replay) {
+    constexpr std::size_t longest = 8, blocks = 6;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < replay.size(); ++i)
+        if (reads_targets(replay.contact(i).device)) ++count;
+    return std::clamp<std::size_t>(count / blocks, 1, longest);
+}
+
+/// True when an axis reversed after the approaches of a pass: the way back is another pass.
+bool turned_back(const emulator::Replay& replay, const records::ReadingTable& table,
+                 const std::vector<Eigen::Index>& visit, std::size_t i) {
+    constexpr std::size_t least = 3;  // readings; targets in random order are approached at will
+    if (visit.size() < least) return false;
+    const auto last = static_cast<std::size_t>(visit.back());
+    return std::any_of(table.axes.begin(), table.axes.end(), [&](Axis axis) {
+        return replay.sample(last).travel[index_of(axis)] !=
+               replay.sample(i).travel[index_of(axis)];
+    });
+}
+
+/// True when reading i continues a visit, that is the readings of one pose of a probe or target, or
+/// of one approach of a pass: they share an error. A pose that is left and taken again has another.
+bool continues(const emulator::Replay& replay, const records::ReadingTable& table,
+               const std::vector<Eigen::Index>& visit, std::size_t i) {
+    constexpr std::size_t most = 64;
+    const std::size_t last = replay.table_row(static_cast<std::size_t>(visit.back()));
+    const records::Reading &before = table.rows[last], &row = table.rows[replay.table_row(i)];
+    if (before.feature != row.feature || before.mode != row.mode || visit.size() >= most)
+        return false;
+    if (reads_targets(row.device)) return true;  // as long as a pass may be
+    for (const Axis axis : table.axes)
+        if ((table.names.is_rotary(axis) || row.device == records::Device::point) &&
+            std::abs(before.commanded[axis] - row.commanded[axis]) > same_angle_rad)
+            return false;
+    if (row.device != records::Device::touch) return before.time_s == row.time_s;
+    return !turned_between(table, last, replay.table_row(i)) &&
+           !touches_again(replay, table, visit, i);
+}
+
+}  // namespace
+
+const DeviceNoise& NoiseModel::of(records::Device device) const {
+    switch (device) {
+        case records::Device::sphere: return sphere;
+        case records::Device::touch: return touch;
+        case records::Device::linear: return linear;
+        case records::Device::angle: return angle;
+        case records::Device::point: return point;
+        case records::Device::axis: return axis;
+        default: return ballbar;
+    }
+}
+DeviceNoise& NoiseModel::of(records::Device device) {
+    return const_cast<DeviceNoise&>(std::as_const(*this).of(device));
+}
+
+std::vector<NoiseBlock> noise_blocks(const emulator::Replay& replay,
+                                     const records::ReadingTable& table) {
+    std::vector<NoiseBlock> blocks;
+    std::map<std::string, std::size_t> open;  // by test
+    const std::size_t of_pass = longest_of_pass(replay);
+    for (std::size_t i = 0; i < replay.size(); ++i) {
+        const records::Reading& row = table.rows[replay.table_row(i)];
+        const auto it = open.find(row.test);
+        bool same = it != open.end() && blocks[it->second].device == row.device;
+        if (same && row.device != records::Device::ballbar && row.device != records::Device::axis) {
+            const std::vector<Eigen::Index>& visit = blocks[it->second].rows;
+            same = static_cast<std::size_t>(visit.back()) + 1 == i &&
+                   !(reads_targets(row.device) &&
+                     (visit.size() >= of_pass || turned_back(replay, table, visit, i))) &&
+                   continues(replay, table, visit, i);
+        }
+        if (!same) {
+            open[row.test] = blocks.size();
+            blocks.push_back({row.device, {}});
+        }
+        blocks[open[row.test]].rows.push_back(static_cast<Eigen::Index>(i));
+    }
+    return blocks;
+}
+
+Whitener::Whitener(const emulator::Replay& replay, std::vector<NoiseBlock> blocks,
+                   const NoiseModel& noise, const Eigen::VectorXd& sigma_mm)
+    : replay_(replay), blocks_(std::move(blocks)), noise_(noise), sigma_mm_(sigma_mm) {}
+
+void Whitener::whiten_touches(const NoiseBlock& block, Eigen::MatrixXd& m) const {
+    const auto n = static_cast<Eigen::Index>(block.rows.size());
+    Eigen::MatrixXd part(n, m.cols());
+    for (Eigen::Index k = 0; k < n; ++k)
+        part.row(k) = m.row(block.rows[static_cast<std::size_t>(k)]);
+    const Eigen::LLT<Eigen::MatrixXd> llt(touch_covariance(replay_, block.rows, noise_.touch));
+    llt.matrixL().solveInPlace(part);
+    for (Eigen::Index k = 0; k < n; ++k)
+        m.row(block.rows[static_cast<std::size_t>(k)]) = part.row(k);
+}
+
+void Whitener::whiten_pass(const NoiseBlock& block, Eigen::MatrixXd& m) const {
+    PassFilter steady(noise_.ballbar);
+    std::vector<double> gain, inverse;
+    for (std::size_t k = 0; k < block.rows.size(); ++k) {
+        steady.step();
+        gain.push_back(steady.gain);
+        inverse.push_back(1.0 / steady.deviation);
+    }
+    for (Eigen::Index c = 0; c < m.cols(); ++c) {
+        double state = 0.0;
+        for (std::size_t k = 0; k < block.rows.size(); ++k) {
+            double& entry = m(block.rows[k], c);
+            const double innovation = entry - state;
+            state = noise_.ballbar.memory * (state + gain[k] * innovation);
+            entry = innovation * inverse[k];
+        }
+    }
+}
+
+void Whitener::apply(Eigen::MatrixXd& m) const {
+    m = sigma_mm_.cwiseInverse().asDiagonal() * m;
+    for (const NoiseBlock& block : blocks_) {
+        const DeviceNoise& noise = noise_.of(block.device);
+        if (noise.shared > 0.0 && block.device == records::Device::touch) {
+            whiten_touches(block, m);
+        } else if (noise.shared > 0.0 && block.device == records::Device::ballbar) {
+            whiten_pass(block, m);
+        } else {
+            for (const Eigen::Index row : block.rows) m.row(row) /= noise.scale;
+        }
+    }
+}
+
+Eigen::VectorXd Whitener::apply(const Eigen::VectorXd& v) const {
+    Eigen::MatrixXd m = v;
+    apply(m);
+    return m.col(0);
+}
+
+const char* to_string(NoiseSource source) {
+    return source == NoiseSource::repeats ? "repeats"
+           : source == NoiseSource::given ? "given"
+                                          : "assumed";
+}
+
+}  // namespace trunnion::diagnosis

@@ -1,0 +1,102 @@
+#include "diagnosis/prepare/spoiled_readings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "diagnosis/rules/rules.h"
+#include "estimation/quantiles.h"
+#include "estimation/trimmed_fit.h"
+
+namespace trunnion::diagnosis {
+namespace {
+
+constexpr double many_readings = 1000.0;  ///< of which a few spoil no fit
+constexpr double far_off = 4.5;           ///< deviations of the others
+constexpr double least_scale = 0.5;       ///< minimum of that deviation, in sigma ...
+constexpr double least_assumed = 0.05;    ///< ... that nobody states
+
+/// Residual of the set-up, fitted to the rows of `used` without regard to the worst of them;
+/// sigma, 0 for other rows.
+Eigen::VectorXd left_by_set_up(const identification::BaseModel& base,
+                               const std::vector<bool>& used) {
+    std::vector<Eigen::Index> rows;
+    for (std::size_t i = 0; i < used.size(); ++i)
+        if (used[i]) rows.push_back(static_cast<Eigen::Index>(i));
+    const Eigen::VectorXd weight = base.sigma_mm(rows).cwiseInverse();
+    const Eigen::MatrixXd columns = weight.asDiagonal() * base.columns(rows, Eigen::all);
+    const Eigen::VectorXd data = weight.cwiseProduct(base.residual_mm(rows));
+    Eigen::VectorXd left = Eigen::VectorXd::Zero(base.residual_mm.size());
+    left(rows) = estimation::trimmed_residual(columns, data, data, rules::most_doubtful);
+    return left;
+}
+
+/// Number of the visit of each row: readings at one position of the axes, one after the other.
+std::vector<std::size_t> visits_of(const emulator::Replay& replay) {
+    std::vector<std::size_t> visit(replay.size(), 0);
+    for (std::size_t i = 1; i < replay.size(); ++i) {
+        const AxisPositions &now = replay.sample(i).position,
+                            &before = replay.sample(i - 1).position;
+        const bool moved = std::any_of(all_axes.begin(), all_axes.end(),
+                                       [&](Axis axis) { return now[axis] != before[axis]; });
+        visit[i] = visit[i - 1] + (moved ? 1 : 0);
+    }
+    return visit;
+}
+
+/// True when the visits with these rows follow one another: more than two spoiled ones rarely do.
+bool follow_one_another(const emulator::Replay& replay, const std::vector<std::size_t>& rows) {
+    const std::vector<std::size_t> visit = visits_of(replay);
+    std::vector<std::size_t> hit;
+    for (const std::size_t i : rows)
+        if (hit.empty() || hit.back() != visit[i]) hit.push_back(visit[i]);
+    std::size_t pairs = 0;
+    for (std::size_t k = 1; k < hit.size(); ++k) pairs += hit[k] - hit[k - 1] == 1 ? 1 : 0;
+    return hit.size() > 2 && 10 * pairs > 4 * hit.size();
+}
+
+}  // namespace
+
+DoubtfulReadings doubtful_readings(const Prepared& prepared, const std::vector<bool>& used) {
+    const emulator::Replay& replay = prepared.replay;
+    const auto taken = [&](std::size_t i) {
+        return used[i] && is_single(replay.contact(i).device);
+    };
+    std::vector<std::size_t> rows(used.size());
+    std::iota(rows.begin(), rows.end(), std::size_t{0});
+    std::erase_if(rows, [&](std::size_t i) { return !taken(i); });
+    if (rows.empty()) return {};
+    const Eigen::VectorXd left = left_by_set_up(prepared.base, used).cwiseAbs();
+    std::vector<double> size;
+    for (const std::size_t i : rows) size.push_back(left(static_cast<Eigen::Index>(i)));
+    DoubtfulReadings doubtful;
+    doubtful.usual = std::max(prepared.base.noise_given ? least_scale : least_assumed,
+                              estimation::robust_deviation(std::move(size)));
+    for (const std::size_t i : rows) {
+        const double own = left(static_cast<Eigen::Index>(i));
+        if (own <= far_off * doubtful.usual) continue;
+        doubtful.rows.push_back(i);
+        doubtful.largest = std::max(doubtful.largest, own);
+    }
+    const auto count = static_cast<double>(doubtful.rows.size()),
+               all = static_cast<double>(std::count(used.begin(), used.end(), true));
+    const bool few = count <= rules::most_outliers * all;
+    if (doubtful.rows.empty() || (few && all > many_readings) ||
+        count > rules::most_doubtful * all || follow_one_another(replay, doubtful.rows))
+        return {};
+    return doubtful;
+}
+
+double likelihood_of_spoiled(const DoubtfulReadings& doubtful, const std::vector<bool>& used,
+                             double scale) {
+    const double width = 3.0 * doubtful.largest / scale;
+    const auto all = static_cast<double>(std::count(used.begin(), used.end(), true)),
+               spoiled = static_cast<double>(doubtful.rows.size());
+    // The density of the other readings is without its factor (2 pi)^-1/2, so this one is, too.
+    return spoiled *
+               (std::log(rules::spoiled_part / width) + 0.5 * std::log(2.0 * std::numbers::pi)) +
+           (all - spoiled) * std::log1p(-rules::spoiled_part);
+}
+
+}  // namespace trunnion::diagnosis
