@@ -75,16 +75,12 @@ bool clash(const NamedFile& written, const NamedFile& other) {
            (written.text == "-" || !fs::is_character_file(written.path, unknown));
 }
 
-bool is_standard_output(const std::string& text) {
-    return text == "-" || text == "/dev/stdout" || text == "/dev/fd/1" || text == "/proc/self/fd/1";
-}
-
 /// With --json standard output is one JSON object; --format then requires --out.
 void refuse_beside_json(const CLI::App& command, const std::vector<NamedFile>& files) {
     const CLI::Option* json = command.get_option_no_throw("--json");
     if (!json || json->count() == 0 || command.get_option_no_throw("--format")) return;
     for (const NamedFile& file : files)
-        if (file.written && is_standard_output(file.text))
+        if (file.written && file.text == "-")
             throw InputError(file.option + " cannot write to standard output together with --json");
 }
 

@@ -36,8 +36,10 @@ class Rewriter {
             ++line.number;
             const std::string_view end =
                 from.substr(line.text.size(), from.size() - line.text.size() - in.size());
-            if (without_blanks(line.text).empty() || line.text[0] == '#')
+            if (without_blanks(line.text).empty())
                 out += line.text;
+            else if (line.text[0] == '#')
+                out += head_line(line.text);
             else if (!header_done_)
                 header(line, out);
             else
@@ -48,6 +50,17 @@ class Rewriter {
     }
 
   private:
+    /// The declared geometry beside which the values stand is that of `read`.
+    std::string head_line(std::string_view written) const {
+        const std::size_t equal = written.find('=');
+        const std::string key(
+            without_blanks(written.substr(1, std::min(equal, written.size()) - 1)));
+        const auto told = read_.comment.find(key);
+        if (!key.starts_with(declared_key) || told == read_.comment.end())
+            return std::string(written);
+        return "# " + key + " = " + told->second;
+    }
+
     void header(const TableLine& line, std::string& out) {
         separator_ = separator_of(line.text);
         line.split(separator_, cells_);

@@ -167,8 +167,6 @@ TEST_CASE("an output never overwrites an input or another output") {
         {"diagnose " + r + " --out " + bench.file("x") + " --html " + bench.file("x"),
          "would both write this"},
         {"diagnose " + r + " --json --out -", "together with --json"},
-        {"run " + p + " --json --trace /dev/stdout", "together with --json"},
-        {"run " + p + " --json --print /dev/fd/1", "together with --json"},
         {"run " + p + " --inject C.backlash", "without a value does nothing"},
         {"ballbar --csv " + bench.file("x") + " --write-readings " + bench.file("x"),
          "would both write this"},

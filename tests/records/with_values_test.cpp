@@ -34,6 +34,15 @@ TEST_CASE("a table keeps all but its values") {
           " 0.5,2,,2.0,\"m\",sphere,S,3.000,1,0,0");
 }
 
+TEST_CASE("values stand beside the geometry that was declared for them") {
+    std::vector<std::string> notes;
+    const std::string text =
+        "# declared chain = old\n#\nindex,time_s,test,device,feature,x_mm,value_mm\n0,0,m,,,1,\n";
+    records::ReadingTable table = records::parse_readings(text, "r.csv", notes);
+    table.comment["declared chain"] = "new";
+    CHECK(records::with_values(text, table) == "# declared chain = new" + text.substr(22));
+}
+
 TEST_CASE("a table of degrees without their column gets it") {
     CHECK(rewritten("\xEF\xBB\xBFindex;time_s;test;device;feature;x_mm;dir_x;dir_y;dir_z;value_mm\n"
                     "0;0;a;angle;R;1;0;0;1;\n"
