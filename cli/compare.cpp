@@ -22,6 +22,7 @@
 #include "interpreter/program_folders.h"
 #include "regression/suite.h"
 #include "report/comparison_report.h"
+#include "report/json_values.h"
 
 namespace trunnion::cli {
 
@@ -102,19 +103,28 @@ regression::Suite suite_of(const CompareCommand& c, const regression::SuiteCase&
     return regression::read_suite(c.suite, like);
 }
 
-int update(const CompareCommand& c, const regression::Suite& suite) {
+std::string list_of_written(const std::vector<std::string>& paths, report::ReportFormat format) {
+    if (format == report::ReportFormat::json)
+        return report::json_text({{"schema", "trunnion.goldens/1"}, {"written", paths}}, 2) + "\n";
+    if (paths.empty()) return "nothing to write: every golden is up to date\n";
+    std::string list;
+    for (const std::string& path : paths) list += fmt::format("written: {}\n", path);
+    return list;
+}
+
+int update(const CompareCommand& c, const regression::Suite& suite, report::ReportFormat format) {
     if (c.reason.empty() || c.reason.find('\n') != std::string::npos)
         throw InputError(
             "--update needs --reason \"one line that says why the machining changed\"");
     OutputFiles files;
     const auto goldens = regression::updated_goldens(suite, c.reason, open_setup);
-    std::string list;
+    std::vector<std::string> written;
     for (const auto& [path, text] : goldens) {
         files.add_folder(std::filesystem::path(path).parent_path().string());
         files.add(path, text);
-        list += fmt::format("written: {}\n", path);
+        written.push_back(path);
     }
-    files.add("-", goldens.empty() ? "nothing to write: every golden is up to date\n" : list);
+    files.add("-", list_of_written(written, format));
     files.write();
     return exit_done;
 }
@@ -122,7 +132,7 @@ int update(const CompareCommand& c, const regression::Suite& suite) {
 int compare_many(const CompareCommand& c, const regression::SuiteCase& like,
                  const SharedLimits& limits, report::ReportFormat format) {
     const regression::Suite suite = suite_of(c, like);
-    if (c.update) return update(c, suite);
+    if (c.update) return update(c, suite, format);
     const auto shard = shard_of(c.shard);
     const unsigned threads = c.threads > 0 ? c.threads : std::thread::hardware_concurrency();
     Progress progress;

@@ -4,6 +4,7 @@
 
 #include "base/numbers.h"
 #include "base/output_files.h"
+#include "base/read_file.h"
 #include "cli/command.h"
 #include "cli/notes.h"
 #include "cli/options.h"
@@ -13,6 +14,7 @@
 #include "emulator/replay.h"
 #include "identification/sensitivity.h"
 #include "identification/simulated.h"
+#include "records/with_values.h"
 #include "report/parameters_json.h"
 #include "report/readings_json.h"
 
@@ -51,7 +53,8 @@ std::optional<identification::Sensitivity> derivatives(const PredictOptions& opt
 
 int predict(const PredictOptions& options) {
     const setup::Setup setup = load_setup_option(options.setup, options.inject);
-    const records::ReadingTable table = load_readings(options.readings, setup);
+    const std::string text = read_file_or_input(options.readings);
+    const records::ReadingTable table = parse_readings(text, options.readings, setup);
     if (const std::string list = emulator::declared_otherwise(setup, table); !list.empty())
         print_notes({options.readings +
                      ": these points were imported with another declared "
@@ -63,8 +66,9 @@ int predict(const PredictOptions& options) {
                       : emulator::predicted(setup, table, effects::active_models(setup));
     OutputFiles files;
     if (!options.jacobian.empty()) files.add(options.jacobian, jacobian_text(*found));
-    files.add("-", options.json ? report::prediction_json(read, found, ReadRecord::files())
-                                : records::format_readings(read));
+    files.add("-", options.json    ? report::prediction_json(read, found, ReadRecord::files())
+                   : options.noise ? records::format_readings(read)
+                                   : records::with_values(text, read));
     files.write();
     return exit_done;
 }

@@ -151,6 +151,9 @@ setup::EffectSetting parse_injection(const std::string& text, const Catalogue& c
             if (!scan.take('=')) scan.fail("'=' is missing after " + name);
             setting.parameters[name] = scan.numbers(parameter->unit);
         } while (scan.take(','));
+    } else if (scan.done()) {
+        scan.fail_word(setting.name + " without a value does nothing: " + setting.name + ": " +
+                       effect->parameters.front().name + "=...");
     }
     if (!scan.done()) scan.fail("this is not understood");
     try {

@@ -11,7 +11,8 @@ namespace trunnion::effects {
 /// Parses `C.backlash: gap_rad=6e-5`, `pivot.g54: dg_mm=[0.01, 0, 0]`, `C.cyclic: cos_rad=1e-5,
 /// periods_per_turn=72` or, for the first parameter of the effect, `C.backlash=60urad`. The units
 /// um mm m urad mrad rad arcsec deg ppm us ms s may follow any number and are converted to the unit
-/// of the parameter. Throws InputError for an unknown effect, parameter or unit.
+/// of the parameter. Throws InputError for an unknown effect, parameter or unit, and without a
+/// value.
 setup::EffectSetting parse_injection(const std::string& text, const Catalogue& catalogue);
 
 /// Values of all parameters of an effect. Parameters not named are 0 (keys: their usual value).

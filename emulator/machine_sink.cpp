@@ -37,19 +37,22 @@ class MovePath : public motion::PathCurve {
     const motion::AxisMove& move_;
 };
 
-/// Path length of the programmed point, or of X Y Z if that is longer: under G43.4 and M128 the
-/// axes may move while the tip is at rest.
+/// Path length of the programmed point, or the longer one of X Y Z and of the believed tip in W:
+/// under G43.4 and M128 the axes may move while the tip is at rest, and a turning table carries the
+/// tip along an arc while X Y Z are at rest.
 double longer_way_mm(const motion::AxisMove& move) {
-    if (move.arc) return move.length_mm;
-    const int parts = move.curve ? 4 * motion::curve_parts(move.from, move.to) : 1;
-    double way_mm = 0.0;
+    const bool turning = turns(move);
+    if (move.arc && !turning) return move.length_mm;
+    const int parts = move.curve || turning ? 4 * motion::curve_parts(move.from, move.to) : 1;
+    double axes_mm = 0.0, tip_mm = 0.0;
     AxisPositions before = move.from;
     for (int k = 1; k <= parts; ++k) {
         const AxisPositions now = move.at(static_cast<double>(k) / parts);
-        way_mm += (move.parallel.linear(now) - move.parallel.linear(before)).norm();
+        axes_mm += (move.parallel.linear(now) - move.parallel.linear(before)).norm();
+        tip_mm += (believed_tool(move, now).tip_W_mm - believed_tool(move, before).tip_W_mm).norm();
         before = now;
     }
-    return std::max(move.length_mm, way_mm);
+    return std::max({move.length_mm, axes_mm, tip_mm});
 }
 
 }  // namespace

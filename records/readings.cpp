@@ -20,13 +20,6 @@ struct Header {
     char separator = ',';
 };
 
-/// Spreadsheets separate columns also by tabs and semicolons.
-char separator_of(std::string_view header) {
-    for (const char c : {',', '\t', ';'})
-        if (header.find(c) != std::string_view::npos) return c;
-    return ',';
-}
-
 StoreCell store_of(const TableLine& line, const TableCell& cell, ReadingTable& table) {
     if (const ReadingColumn* column = find_reading_column(cell.text)) {
         if (column->optional) table.optional_columns.emplace_back(cell.text);

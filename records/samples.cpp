@@ -5,11 +5,12 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <string_view>
 
 namespace trunnion::records {
 namespace {
 
-using Rows = std::vector<std::size_t>;  // row indices of one test, in order
+using Rows = std::vector<std::size_t>;  // row indices of one pass, in order
 
 AxisSample sample_of(const Reading& row) {
     AxisSample sample;
@@ -32,7 +33,7 @@ Vector3 linear_position(const Reading& row) {
     return {row.commanded[Axis::X], row.commanded[Axis::Y], row.commanded[Axis::Z]};
 }
 
-/// Rows of one test whose differences are velocities.
+/// Rows of one pass whose differences are velocities.
 class Pass {
   public:
     Pass(std::span<const Reading> all, const Rows& rows, const AxisNames& names)
@@ -268,15 +269,36 @@ AxisSides sides_before(const ReadingTable& table, std::size_t begin) {
     return first && known != table.part_sides.end() ? known->second : AxisSides{};
 }
 
-std::map<std::string, Rows> rows_of_tests(std::span<const Reading> rows) {
-    std::map<std::string, Rows> tests;
-    auto last = tests.end();
+/// True when the next rows (`step` 1) or the last ones (-1) are of the same test, at two times or
+/// more.
+bool goes_on(std::span<const Reading> rows, std::size_t k, std::size_t step) {
+    for (std::size_t i = k + step; i < rows.size() && rows[i].test == rows[k].test; i += step)
+        if (rows[i].time_s != rows[k].time_s) return true;
+    return false;
+}
+
+/// True when a test ended at row `from` and is repeated from row `to` on: another test ran in
+/// between. Rows of logs that were taken at the same time alternate, one time each.
+bool repeated(std::span<const Reading> rows, std::size_t from, std::size_t to) {
+    constexpr std::size_t back = static_cast<std::size_t>(-1);
+    if (to - from < 3 || !(goes_on(rows, from, back) || goes_on(rows, to, 1))) return false;
+    for (std::size_t i = from + 1; i < to; ++i)
+        if (goes_on(rows, i, 1)) return true;
+    return false;
+}
+
+/// The rows of each pass: of a test, or of each of its repetitions.
+std::vector<Rows> rows_of_passes(std::span<const Reading> rows) {
+    std::vector<Rows> passes;
+    std::map<std::string_view, std::size_t> last;  // pass of each test
     for (std::size_t k = 0; k < rows.size(); ++k) {
-        if (last == tests.end() || last->first != rows[k].test)
-            last = tests.try_emplace(rows[k].test).first;
-        last->second.push_back(k);
+        const auto [found, first] = last.try_emplace(rows[k].test, passes.size());
+        if (!first && repeated(rows, passes[found->second].back(), k))
+            found->second = passes.size();
+        if (found->second == passes.size()) passes.emplace_back();
+        passes[found->second].push_back(k);
     }
-    return tests;
+    return passes;
 }
 
 }  // namespace
@@ -295,8 +317,7 @@ std::vector<AxisSample> samples_of(std::span<const Reading> rows, const std::vec
     for (AxisSample& sample : samples)
         for (const Axis axis : axes)
             sample.side_unknown[index_of(axis)] = sample.travel[index_of(axis)] == 0;
-    for (const auto& [test, list] : rows_of_tests(rows))
-        Pass(rows, list, names).fill(axes, samples);
+    for (const Rows& list : rows_of_passes(rows)) Pass(rows, list, names).fill(axes, samples);
     for (std::size_t k = 0; k < rows.size(); ++k)
         for (const Axis axis : axes)
             if (samples[k].velocity[axis] != 0.0) samples[k].side_unknown[index_of(axis)] = false;

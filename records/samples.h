@@ -17,8 +17,9 @@ bool is_continuous(Device device);
 ///                   kept while the axis is at rest; before its first motion from `# side` (first
 ///                   session), else `side_unknown` and 0
 ///   continuous rows velocity (q[i+1] - q[i-1]) / (t[i+1] - t[i-1]) within the test, one-sided at
-///                   its ends (rows of `axis`: the parabola through the velocities of the next
-///                   three); travel is its sign, 0 at an exact reversal point
+///                   its ends, those of each repetition after another test (rows of `axis`: the
+///                   parabola through the velocities of the next three); travel is its sign, 0 at
+///                   an exact reversal point
 ///   acceleration    cubic through five rows of the test, continuous rows only; the same for jerk
 ///   since_reversal  distance from the reversal point (between dense rows: the vertex of the
 ///                   parabola through three); restarts at a row of another test that directly

@@ -83,6 +83,12 @@ std::string_view take_line(std::string_view& text) {
     return line;
 }
 
+char separator_of(std::string_view header) {
+    for (const char c : {',', '\t', ';'})
+        if (header.find(c) != std::string_view::npos) return c;
+    return ',';
+}
+
 std::string cell_text(const std::string& text) {
     const bool plain = text.find_first_of(",\"") == std::string::npos &&
                        (text.empty() || (!blank(text.front()) && !blank(text.back())));

@@ -32,6 +32,9 @@ struct TableLine {
 std::string_view without_blanks(std::string_view text);
 /// Removes and returns the next line of `text`, without its line end (LF, CRLF or a lone CR).
 std::string_view take_line(std::string_view& text);
+/// What separates the columns of a table with this header line: spreadsheets also use tabs and
+/// semicolons.
+char separator_of(std::string_view header);
 /// The text as a cell, quoted if necessary.
 std::string cell_text(const std::string& text);
 

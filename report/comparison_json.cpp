@@ -254,14 +254,16 @@ Json suite_json(const regression::CompareReport& report) {
     Json j = {{"schema", "trunnion.compare/1"}, {"equal", regression::exit_code(report) == 0}};
     const regression::Comparison* worst = nullptr;
     const regression::Comparison* first = nullptr;
+    const regression::Comparison* placed = nullptr;  // a program of one folder only has no place
     std::uint64_t compared = 0;
     for (const regression::Comparison& c : report.cases) {
         compared += c.compared;
         if (first == nullptr && !c.equal) first = &c;
+        if (placed == nullptr && !c.equal && !first_json(c).is_null()) placed = &c;
         if (worst == nullptr || c.position_mm > worst->position_mm) worst = &c;
     }
     j["by"] = name_of(first != nullptr ? first->by : regression::Layer::path);
-    j["first"] = first != nullptr ? first_json(*first) : Json(nullptr);
+    j["first"] = placed != nullptr ? first_json(*placed) : Json(nullptr);
     j["worst"] = worst != nullptr ? case_json(*worst).at("worst") : Json(nullptr);
     j["compared"] = compared;
     j["suite"] = valid_utf8(report.suite);

@@ -85,6 +85,18 @@ TEST_CASE("a full disk under one output leaves none of the others") {
     }
 }
 
+TEST_CASE("goldens that are written are told as JSON too") {
+    const Bench bench;
+    bench.write("suite.toml", "schema = \"trunnion.suite/1\"\n[[case]]\nprogram = \"part.nc\"\n");
+    for (const std::size_t written : {1u, 0u}) {
+        REQUIRE(bench.shell(
+                    "$T compare --suite suite.toml --update --reason new --json > o.json") == 0);
+        const Json json = Json::parse(bench.read("o.json"));
+        CHECK(json.at("schema") == "trunnion.goldens/1");
+        CHECK(json.at("written").size() == written);
+    }
+}
+
 TEST_CASE("closed streams end in an exit code and write into no file of the user") {
     const Bench bench;
     CHECK(bench.shell("$T run part.nc --trace t.csv --json >&- 2> err.txt") == 2);

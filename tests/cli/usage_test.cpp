@@ -167,6 +167,7 @@ TEST_CASE("an output never overwrites an input or another output") {
         {"diagnose " + r + " --out " + bench.file("x") + " --html " + bench.file("x"),
          "would both write this"},
         {"diagnose " + r + " --json --out -", "together with --json"},
+        {"run " + p + " --inject C.backlash", "without a value does nothing"},
         {"ballbar --csv " + bench.file("x") + " --write-readings " + bench.file("x"),
          "would both write this"},
         {"backup save " + bench.path.string() + " " + bench.path.string() + " --setup " + m,

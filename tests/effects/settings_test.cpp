@@ -89,7 +89,7 @@ TEST_CASE("injections with names, vectors and units", "[effects]") {
 TEST_CASE("injections that mean nothing are refused with their place", "[effects]") {
     const effects::Catalogue catalogue = effects::make_catalogue(campaign::bc_setup());
     for (const char* text :
-         {"C.wobble=3", "C.backlash: gap=3", "C.backlash=", "C.backlash=3 um",
+         {"C.wobble=3", "C.backlash", "C.backlash: gap=3", "C.backlash=", "C.backlash=3 um",
           "C.backlash: gap_rad", "C.backlash: =1", "C.backlash=1e-5 rest",
           "servo.contour: lag2_s2=[1, 2]", "", "pivot.g54: dg_mm=[1, 2]", "A.backlash=1urad",
           "C.backlash=nan", "C.backlash=infurad", "X.backlash=1e308m"}) {

@@ -317,6 +317,23 @@ TEST_CASE("trace rows follow a curve while the tip rests, by step or by chord") 
     CHECK(rows(0, 0.95 * rise_mm) == plain + 7);
 }
 
+TEST_CASE("trace rows follow the tip on a turning table while X Y Z are at rest") {
+    const setup::Setup setup = bc_setup();
+    interpreter::ProgramsInMemory none;
+    emulator::RunOptions options;
+    options.trace = true;
+    options.trace_step_mm = 10.0;
+    const emulator::RunLog log = emulator::run_program(
+        setup, none,
+        interpreter::ProgramText{"c.nc", "G90 G21 G53 X80. Y0 Z0\nG1 C90. F500.\nM30\n", nullptr},
+        options);
+    REQUIRE(log.result.status == controller::RunStatus::ok);
+    int samples = 0;
+    for (std::size_t at = 0; (at = log.trace_csv.find(",2,SAMPLE,", at)) != std::string::npos; ++at)
+        ++samples;
+    CHECK(samples == 12);  // 80 pi / 2 = 126 mm
+}
+
 TEST_CASE("trace rows follow the axes of M128 while the tip has no way to go") {
     setup::Setup setup = bc_setup();
     setup.dialect = interpreter::hurco_dialect();

@@ -236,6 +236,38 @@ TEST_CASE("ballbar rows: central velocity, one-sided at the ends, sign of travel
     }
 }
 
+TEST_CASE("a pass that is repeated after another one has ends of its own") {
+    const std::string columns = "index,time_s,test,device,feature,x_mm,y_mm,value_mm\n";
+    std::string text = columns;
+    const char* const tests[] = {"cw", "ccw", "cw"};
+    for (int i = 0; i < 15; ++i)
+        text += std::to_string(i) + ',' + std::to_string(i) + ',' + tests[i / 5] + ",ballbar,P," +
+                std::to_string(3 * i + 100 * (i / 5)) + ",0,0\n";
+    const auto samples = records::samples_of(read(text));
+    for (const std::size_t i : {0u, 4u, 5u, 9u, 10u, 12u, 14u})
+        CHECK(samples[i].velocity[Axis::X] == 3.0);
+    CHECK(samples[10].path_mm == 0.0);
+}
+
+TEST_CASE("logs that were taken at the same time are passes of their own") {
+    // x at 3 mm/s each second, in between y at 2 mm/s; or y in every third second only
+    for (const int sparse : {1, 3}) {
+        std::string text = "index,time_s,test,device,feature,x_mm,y_mm,value_mm\n";
+        for (int i = 0; i < 12; ++i) {
+            const std::string at = std::to_string(3 * i) + ',' + std::to_string(2 * i) + ",0\n";
+            text += std::to_string(i) + ',' + std::to_string(i) + ",first,axis,X," + at;
+            if (i % sparse == 0)
+                text += std::to_string(i) + ',' + std::to_string(i) + ",second,axis,Y," + at;
+        }
+        const records::ReadingTable table = read(text);
+        const auto samples = records::samples_of(table);
+        for (std::size_t i = 0; i < samples.size(); ++i) {
+            CHECK(samples[i].velocity[Axis::X] == Approx(3.0));
+            CHECK(samples[i].velocity[Axis::Y] == Approx(2.0));
+        }
+    }
+}
+
 TEST_CASE("an exact turning point says nothing about reversal") {
     const auto samples = records::samples_of(read(circle(0.0, 1.0, 40)));
     CHECK(samples[20].travel[index_of(Axis::X)] == 0);  // x = -100

@@ -74,6 +74,19 @@ TEST_CASE("JSON: the contract's keys with the same place and cause", "[compare]"
     CHECK(j.at("differences")[1].at("kind") == "function");
 }
 
+TEST_CASE("JSON of folders: the first place, though a program of one folder comes before it",
+          "[compare]") {
+    regression::CompareReport report = report_of_pair();
+    regression::Comparison alone;
+    alone.equal = false;
+    report.cases.insert(report.cases.begin(), alone);
+    const auto j =
+        nlohmann::json::parse(report::format_comparison(report, report::ReportFormat::json));
+    CHECK(j.at("equal") == false);
+    CHECK(j.at("first").at("a").at("line") == 7);
+    CHECK(j.at("cases")[0].at("first").is_null());
+}
+
 TEST_CASE("markdown: a heading, a table row, the blocks of both sides", "[compare]") {
     const std::string text = written(report::ReportFormat::markdown);
     INFO(text);
