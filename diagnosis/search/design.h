@@ -120,7 +120,8 @@ class Design {
         keep_as_rival(group);
         groups_[group].group.by_definition = true;
     }
-    /// Fraction of a group's squared columns outside the span of some features.
+    /// Fraction of a group's squared columns outside the span of some features
+    /// (design_outside.cpp).
     double outside(std::size_t group, const std::vector<Eigen::Index>& features) const;
     /// The same of single features, whatever group they belong to.
     double outside(const std::vector<Eigen::Index>& own,
