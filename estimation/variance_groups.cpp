@@ -185,6 +185,12 @@ FactoredMembers::FactoredMembers(const GroupEquations& equations, const Variance
     factor.topLeftCorner(z.size(), z.size()).triangularView<Eigen::Lower>().solveInPlace(z);
 }
 
+Eigen::VectorXd FactoredMembers::mean() const {
+    if (tau.size() == 0) return {};
+    const auto own = factor.topLeftCorner(z.size(), z.size()).triangularView<Eigen::Lower>();
+    return tau.cwiseProduct(own.transpose().solve(z)) / (nu * nu);
+}
+
 GivenMembers::GivenMembers(FactoredMembers factored) : nu_(factored.nu), z_(std::move(factored.z)) {
     const Eigen::VectorXd& tau = factored.tau;
     if (tau.size() == 0) return;
@@ -374,7 +380,7 @@ BestVariances maximise_likelihood(const GroupEquations& equations, Variances sta
         now = std::move(next);
         if (last < 0.01) break;
     }
-    return {std::move(now.variances), now.likelihood};
+    return {std::move(now.variances), now.likelihood, now.members.mean()};
 }
 
 }  // namespace trunnion::estimation

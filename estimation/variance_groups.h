@@ -61,6 +61,7 @@ struct GroupInformation {
 /// likelihood needs.
 struct FactoredMembers {
     FactoredMembers(const GroupEquations& equations, const Variances& variances);
+    Eigen::VectorXd mean() const;  ///< of b, m entries
 
     double nu = 1.0;
     Eigen::VectorXd tau;           ///< of each column: the diagonal of D
@@ -141,6 +142,7 @@ std::vector<GroupInformation> each_beside_others(const GroupEquations& equations
 struct BestVariances {
     Variances variances;
     double likelihood = 0.0;  ///< restricted_likelihood() at these variances
+    Eigen::VectorXd mean;     ///< of b at these variances, m entries
 };
 /// Variances that maximise the restricted likelihood, from `start`. In each sweep every group gets
 /// its best size beside the others at their previous sizes, then the noise is estimated from the

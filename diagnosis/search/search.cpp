@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "diagnosis/search/offers.h"
 #include "diagnosis/search/stand_ins.h"
@@ -221,15 +222,15 @@ Model empty_model(Design& design, const SearchSetting& setting) {
 namespace {
 
 /// True where the fit gives a parameter a size that it cannot have: no control rounds its positions
-/// by 500 times the increment, whatever this explains.
-bool is_impossible(Design& design, const Model& model) {
+/// by 500 times the increment, whatever this explains. `mean`: of the members' coefficients.
+bool is_impossible(const Design& design, const Model& model, const Eigen::VectorXd& mean) {
     constexpr double beyond = 0.2;  // of the range: noise may lead out of it
-    for (std::size_t k = 0; k < model.members.size(); ++k) {
-        const ColumnGroup& group = design.group(model.members[k]);
+    Eigen::Index at = 0;
+    for (const std::size_t m : model.members) {
+        const ColumnGroup& group = design.group(m);
+        const auto own = mean.segment(std::exchange(at, at + group.columns()), group.columns());
         if (!group.has_parts()) continue;
-        const Fit fit = fit_of(design, model);
-        const Eigen::VectorXd value =
-            group.feature_values(fit.mean.segment(fit.first[k], fit.size[k]));
+        const Eigen::VectorXd value = group.feature_values(own);
         for (std::size_t j = 0; j < group.parameters.size(); ++j) {
             const effects::EffectParameter& p = group.effect->parameters[group.parameters[j]];
             const double part = p.typical * value(static_cast<Eigen::Index>(j));
@@ -247,7 +248,7 @@ Model tuned(Design& design, const SearchSetting& setting, Model model, int sweep
     model.variances = std::move(best.variances);
     model.score = best.likelihood - setting.empty;
     for (const std::size_t m : model.members) model.score += design.group(m).log_prior;
-    if (is_impossible(design, model)) model.score -= impossible;
+    if (is_impossible(design, model, best.mean)) model.score -= impossible;
     return model;
 }
 

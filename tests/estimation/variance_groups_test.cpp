@@ -138,8 +138,11 @@ TEST_CASE("the likelihood is at its maximum", "[estimation]") {
     const Bench bench;
     const estimation::GroupEquations all = bench.equations();
     const estimation::NoisePrior prior{0.0, 0.5};
-    const auto [best, most] = estimation::maximise_likelihood(all, {{1, 1, 1}, 1.0}, prior, 60);
+    const auto [best, most, mean] =
+        estimation::maximise_likelihood(all, {{1, 1, 1}, 1.0}, prior, 60);
     CHECK(most == estimation::restricted_likelihood(all, best, prior));
+    const Eigen::VectorXd by_inverse = estimation::GivenMembers(all, best).mean();
+    CHECK((mean - by_inverse).norm() < 1e-12 * by_inverse.norm());
     for (std::size_t g = 0; g < 3; ++g)
         for (const double factor : {0.8, 1.25}) {
             estimation::Variances other = best;
@@ -158,7 +161,8 @@ TEST_CASE("the noise of few readings stands between its prior and their scatter"
         Eigen::MatrixXd(0, 0), Eigen::VectorXd(0), 9.0 * 20.0, 20.0, {}};
     for (const double spread : {0.05, 0.2, 1.0}) {
         const estimation::NoisePrior prior{0.0, spread};
-        const auto [best, most] = estimation::maximise_likelihood(none, {{}, 1.0}, prior, 20);
+        const auto [best, most, mean] = estimation::maximise_likelihood(none, {{}, 1.0}, prior, 20);
+        CHECK(mean.size() == 0);
         CHECK(best.nu > 1.0);
         CHECK(best.nu < 3.0);
         for (const double factor : {0.98, 1.02})
