@@ -202,9 +202,21 @@ kinematics::Perturbation Replay::gradient(std::size_t i, const kinematics::Forwa
                 result.motion[k].tilt_rad(j) = slope(at.motion[k].tilt_rad(j), turn_rad);
             }
         }
+    // No axis moves by a shift of the tool or the artefact.
+    PhysicalState state{model.poses(samples_[i].position, at, spindle_angle(samples_[i])), at};
+    const InstrumentView view{setup_of(session_[i]), of_session(offsets, session_[i]), contacts_[i],
+                              state};
+    const auto shift_slope = [&](double& entry) {
+        entry = shift_mm;
+        const double plus = reading_mm(view);
+        entry = -shift_mm;
+        const double minus = reading_mm(view);
+        entry = 0.0;
+        return (plus - minus) / (2.0 * shift_mm);
+    };
     for (int j = 0; j < 3; ++j) {
-        result.tip_shift_mm(j) = slope(at.tip_shift_mm(j), shift_mm);
-        result.work_shift_mm(j) = slope(at.work_shift_mm(j), shift_mm);
+        result.tip_shift_mm(j) = shift_slope(state.extra.tip_shift_mm(j));
+        result.work_shift_mm(j) = shift_slope(state.extra.work_shift_mm(j));
     }
     result.reading_mm = 1.0;
     return result;
