@@ -8,8 +8,7 @@ namespace trunnion::diagnosis {
 namespace {
 
 bool is_improbable_ripple(const Outcome& f, const Claim& claim) {
-    if (claim.probability >= rules::claimed || claim.share < rules::between_part ||
-        !f.judgement.interpolates[claim.position])
+    if (claim.probability >= rules::claimed || !f.judgement.interpolates[claim.position])
         return false;
     return f.design.group(f.model.members[claim.position]).kind == GroupKind::periodic ||
            std::any_of(claim.rival_groups.begin(), claim.rival_groups.end(),
@@ -43,7 +42,7 @@ std::optional<Judgement> doubted(const Outcome& f, const std::vector<Claim>& cla
     Judgement judgement = f.judgement;
     for (const Claim& claim : claims) {
         if (!is_improbable_ripple(f, claim)) continue;
-        judgement.between_places = false;
+        if (claim.share >= rules::between_part) judgement.between_places = false;
         for (std::size_t k = 0; k < f.model.members.size(); ++k)
             if (f.design.group(f.model.members[k]).name == claim.name)
                 judgement.interpolates[k] = false;
