@@ -355,4 +355,23 @@ TEST_CASE(
     CHECK(diagnosis::probability_against({}) == 1.0);  // no contender
 }
 
+// A drift of 0.1 mm beside free zeros: 1 % of it is left, which is many times the noise.
+TEST_CASE("an effect with keys is seen where the set-up takes up all but a hundredth of it",
+          "[diagnosis]") {
+    using diagnosis::GroupKind;
+    SeededNoise random(41);
+    const Eigen::MatrixXd known = random_matrix(random, 2);
+    const Eigen::MatrixXd course = random_matrix(random, 1);
+    for (const double left : {0.01, 1e-4}) {
+        diagnosis::Design design(known, random_matrix(random, 1).col(0), rows);
+        const Eigen::MatrixXd columns = 100.0 * known.col(0) + 100.0 * left * course;
+        const std::size_t drift =
+            design.add(group_of(design, "thermal.drift", GroupKind::periodic, columns));
+        const std::size_t table = design.add(group_of(design, "Z.x", GroupKind::table, columns));
+        INFO(left);
+        CHECK(design.groups()[drift].visible() == (left == 0.01));
+        CHECK_FALSE(design.groups()[table].visible());
+    }
+}
+
 }  // namespace trunnion
