@@ -312,9 +312,10 @@ Told told_of(const Outcome& found, const records::ReadingTable* holdout) {
     const Outcome f = with_judgement(found, told.judgement);
     if (!f.judgement.gap) return told;
     const Sizes sizes = sizes_of(f.design, f.model, f.judgement.floor, f.judgement.large);
-    told.claims = claims_of({f.design, f.setting}, f.model, sizes,
-                            {f.judgement.support, f.found, f.prepared.folds,
-                             std::max(f.judgement.part, f.judgement.beside_zeros)});
+    told.claims =
+        claims_of({f.design, f.setting}, f.model, sizes,
+                  {f.judgement.support, f.found, f.prepared.folds, f.judgement.interpolates,
+                   std::max(f.judgement.part, f.judgement.beside_zeros)});
     merge_free_forms(f, told.claims);
     return told;
 }

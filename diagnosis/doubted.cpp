@@ -10,8 +10,7 @@ namespace {
 /// True where a ripple is more likely than the claim, which is the ripple found or another cause.
 /// A claim whose nearest rivals hold between places as well is unsure of its name, not of that.
 bool is_improbable_ripple(const Outcome& f, const Claim& claim) {
-    if (claim.probability >= rules::claimed || claim.share < rules::between_part ||
-        !f.judgement.interpolates[claim.position])
+    if (claim.probability >= rules::claimed || !f.judgement.interpolates[claim.position])
         return false;
     if (f.design.group(f.model.members[claim.position]).kind == GroupKind::periodic) return true;
     if (claim.rival_groups.empty()) return false;
@@ -33,7 +32,7 @@ std::optional<Judgement> doubted(const Outcome& f, const std::vector<Claim>& cla
     Judgement judgement = f.judgement;
     for (const Claim& claim : claims) {
         if (!is_improbable_ripple(f, claim)) continue;
-        judgement.between_places = false;
+        if (claim.share >= rules::between_part) judgement.between_places = false;
         for (std::size_t k = 0; k < f.model.members.size(); ++k)
             if (f.design.group(f.model.members[k]).name == claim.name)
                 judgement.interpolates[k] = false;

@@ -61,6 +61,37 @@ double middle_of_plateau(const std::function<double(double)>& gain_at, double ke
     return 0.5 * (edge(bracket.first) + edge(bracket.second));
 }
 
+/// Turns by which the phase of a ripple differs over the travel between two periods; 0 for other
+/// keys. What a ripple explains has a peak for every turn.
+double turns_between(const emulator::Replay& replay, const effects::Effect& effect,
+                     std::pair<double, double> periods) {
+    if (effect.kind != effects::EffectKind::cyclic) return 0.0;
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (std::size_t i = 0; i < replay.size(); ++i) {
+        low = std::min(low, replay.sample(i).position[*effect.axis]);
+        high = std::max(high, replay.sample(i).position[*effect.axis]);
+    }
+    return (high - low) * (1.0 / periods.first - 1.0 / periods.second);
+}
+
+/// The part of a bracket around the highest of several peaks: golden section climbs any of them.
+std::pair<double, double> around_highest_peak(const std::function<double(double)>& gain_at,
+                                              std::pair<double, double> bracket, double turns) {
+    constexpr double steps_per_turn = 3.0, most_steps = 120.0;
+    if (turns < 1.0) return bracket;
+    const auto count = static_cast<int>(std::min(most_steps, std::ceil(steps_per_turn * turns)));
+    const auto [low, high] = bracket;
+    const double step = (high - low) / count;
+    int best = 0;
+    double most = -1.0;
+    for (int k = 0; k <= count; ++k)
+        if (const double gain = gain_at(low + k * step); gain > most) {
+            most = gain;
+            best = k;
+        }
+    return {std::max(low, low + (best - 1) * step), std::min(high, low + (best + 1) * step)};
+}
+
 }  // namespace
 
 std::vector<double> refine_keys(const emulator::Replay& replay, const BaseModel& base,
@@ -79,7 +110,8 @@ std::vector<double> refine_keys(const emulator::Replay& replay, const BaseModel&
         };
         for (int round = 0; round < 4; ++round) {
             const auto [from, to] = neighbours(p.grid, keys[j]);
-            double low = from, high = to;
+            auto [low, high] =
+                around_highest_peak(at, {from, to}, turns_between(replay, effect, {from, to}));
             double a = high - golden * (high - low), b = low + golden * (high - low);
             double fa = at(a), fb = at(b);
             for (int step = 0; step < 14; ++step) {

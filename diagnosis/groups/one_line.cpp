@@ -1,5 +1,5 @@
-// The only line along which an axis was read (ISO 230-2): an angle of the axis, seen through the
-// arm of the target, is its positioning there.
+// The only line along which an axis was read (ISO 230-2), or several that see it through the same
+// arm: an angle of the axis is its positioning there.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -48,21 +48,26 @@ bool is_same_line(const Prepared& p, std::size_t a, std::size_t b, Axis moving) 
     return true;
 }
 
-/// True where all tests in which the axis moves are along one line.
-bool is_read_on_one_line(const Prepared& p, const kinematics::AxisGeometry& axis) {
+struct Lines {
+    bool only = false;  ///< all tests in which the axis moves are lines along it
+    bool same = true;   ///< ... and one and the same
+};
+
+Lines lines_along(const Prepared& p, const kinematics::AxisGeometry& axis) {
     std::optional<std::size_t> line;
+    Lines lines;
     for (const auto& [test, rows] : rows_by_test(p)) {
         const double at = p.replay.sample(rows.front()).position[axis.axis];
         if (std::all_of(rows.begin(), rows.end(), [&](std::size_t i) {
                 return p.replay.sample(i).position[axis.axis] == at;
             }))
             continue;
-        if (!is_line_along(p, rows, axis) ||
-            (line && !is_same_line(p, *line, rows.front(), axis.axis)))
-            return false;
+        if (!is_line_along(p, rows, axis)) return {};
+        if (line && !is_same_line(p, *line, rows.front(), axis.axis)) lines.same = false;
         line = rows.front();
     }
-    return line.has_value();
+    lines.only = line.has_value();
+    return lines;
 }
 
 bool are_angles_of(const ColumnGroup& group, Axis axis) {
@@ -72,11 +77,33 @@ bool are_angles_of(const ColumnGroup& group, Axis axis) {
            group.effect->kind == effects::EffectKind::angular;
 }
 
+/// True where what angles in proportion to the position do is a scale, on all lines: an axis that
+/// rests beside the moving one may carry neither the target nor the moving one's slide, and then
+/// the arm is the same wherever it rests.
+bool have_one_arm(const Design& design, Axis axis) {
+    constexpr double none = 1e-6;  // of the squared columns
+    std::vector<Eigen::Index> scale;
+    for (const auto& entry : design.groups())
+        if (entry.group.kind == GroupKind::textbook && entry.group.effect->axis == axis &&
+            entry.group.effect->kind == effects::EffectKind::scale && !entry.group.is_change())
+            scale = entry.group.features;
+    if (scale.empty()) return false;
+    for (std::size_t k = 0; k < design.groups().size(); ++k) {
+        const ColumnGroup& group = design.group(k);
+        if (group.kind == GroupKind::textbook && !group.unnamed && !group.is_change() &&
+            are_angles_of(group, axis))
+            return design.outside(k, scale) < none;
+    }
+    return false;
+}
+
 }  // namespace
 
 void take_line_for_positioning(Design& design, const Prepared& prepared) {
     for (const kinematics::AxisGeometry& axis : prepared.base.setup.machine.chain.axes()) {
-        if (axis.rotary || !is_read_on_one_line(prepared, axis)) continue;
+        if (axis.rotary) continue;
+        const Lines lines = lines_along(prepared, axis);
+        if (!lines.only || !(lines.same || have_one_arm(design, axis.axis))) continue;
         for (std::size_t k = 0; k < design.groups().size(); ++k)
             if (are_angles_of(design.group(k), axis.axis)) design.keep_as_positioning(k);
     }

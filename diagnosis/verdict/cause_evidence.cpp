@@ -31,6 +31,14 @@ bool makes_doubtful(const ColumnGroup& own, const ColumnGroup& other) {
             other.table.motion != effects::EffectKind::angular);
 }
 
+/// True for a ripple of the axis whose positioning errors the table gives.
+bool is_ripple_of(const ColumnGroup& table, const ColumnGroup& other) {
+    return table.kind == GroupKind::table &&
+           table.table.motion == effects::EffectKind::positioning && other.effect &&
+           other.effect->kind == effects::EffectKind::cyclic &&
+           other.effect->axis == table.table.axis.axis;
+}
+
 double nats_of(const Design& design, const Offer& o) {
     return o.gain.best + design.group(o.group).log_prior;
 }
@@ -100,7 +108,8 @@ EvidenceOf evidence_of(const Searching& search, const Model& model, const Offer&
         if (o.group == held.group) continue;
         if (count++ == rivals_tried) break;
         const ColumnGroup& group = design.group(o.group);
-        const bool again = group.name == cause.name;
+        const bool again =
+            group.name == cause.name || (instead.at_places && is_ripple_of(cause, group));
         std::vector<double>& list = again ? same : makes_doubtful(cause, group) ? kindred : other;
         const std::size_t before = list.size();
         weights.add(with(rest, o), own - nats_of(design, o), list);

@@ -12,6 +12,9 @@ namespace trunnion::diagnosis {
 struct Alternatives {
     const std::vector<Offer>& others;
     const std::vector<TwoInstead>& pairs;
+    /// The member is a table that holds at its places only: a ripple of its axis that these do not
+    /// resolve does the same there, and is no other cause.
+    bool at_places = false;
 };
 
 /// Probability by the evidence: of a cause, and of the cause or a free form that makes it doubtful.

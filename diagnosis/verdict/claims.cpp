@@ -354,7 +354,8 @@ std::vector<Claim> claims_of(const Searching& search, const Model& model, const 
         const std::vector<Offer> one = sharing(design, group, instead, others);
         const std::vector<TwoInstead> two = two_instead(design, search.setting, model, k);
         const EvidenceOf told =
-            evidence_of(search, model, worth[k], {one, two}, temper(sizes, k, heldout.folds));
+            evidence_of(search, model, worth[k], {one, two, !heldout.interpolates[k]},
+                        temper(sizes, k, heldout.folds));
         // What the evidence leaves open between forms of one axis is open in all that is seen, too.
         const double seen_axis = std::min(seen, told.axis);
         claim.probability = std::min(probability_against(contender),

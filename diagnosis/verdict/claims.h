@@ -43,6 +43,7 @@ struct HeldOutEvidence {
     const std::vector<Support>& support;  ///< of each member
     const Challenged& found;
     const Folds& folds;
+    const std::vector<bool>& interpolates;  ///< members that hold between their places
     double explained;  ///< H, the part of the gap that they confirm: no probability is above it
 };
 

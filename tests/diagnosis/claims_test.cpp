@@ -47,15 +47,17 @@ diagnosis::Folds folds_of_blocks() {
     return folds;
 }
 
-/// The claims of a model whose members left-out readings support without doubt.
+/// The claims of a model whose members left-out readings support without doubt. `between`: they
+/// hold between their places, too.
 std::vector<diagnosis::Claim> claims_of(const diagnosis::Searching& search,
-                                        const diagnosis::Challenged& found) {
+                                        const diagnosis::Challenged& found, bool between = true) {
     const std::vector<bool> none(found.model.members.size(), false);
     const diagnosis::Sizes sizes = diagnosis::sizes_of(search.design, found.model, 1.0, none);
     const std::vector<diagnosis::Support> support(found.model.members.size(),
                                                   {{50.0, 1000.0, 1.0, 1.0}});
+    const std::vector<bool> interpolates(found.model.members.size(), between);
     return diagnosis::claims_of(search, found.model, sizes,
-                                {support, found, folds_of_blocks(), 1.0});
+                                {support, found, folds_of_blocks(), interpolates, 1.0});
 }
 
 /// A model of which the best contenders are far behind.
@@ -138,6 +140,35 @@ TEST_CASE("a ripple that the positions do not resolve shares the probability", "
         CHECK((claim.probability < 0.4) == is_ripple);
         CHECK((claim.probability > 0.9) == !is_ripple);
         CHECK(claim.rivals.empty() == !is_ripple);
+    }
+}
+
+TEST_CASE("a ripple that the places do not resolve is what a table gives at these", "[diagnosis]") {
+    SeededNoise random(37);
+    static const effects::Effect cyclic{
+        {"Z.cyclic", effects::EffectKind::cyclic, Axis::Z}, "", "", "", "", {}, {}};
+    const Eigen::MatrixXd shapes = random_matrix(random, 9);
+    const Eigen::MatrixXd ripple = shapes.leftCols(2);
+    const Eigen::VectorXd data =
+        ripple * Eigen::Vector2d(1.5, -1.0) + random_matrix(random, 1).col(0);
+    diagnosis::Design design(random_matrix(random, 2), data, rows);
+    diagnosis::ColumnGroup table =
+        group_of(design, "Z.positioning", diagnosis::GroupKind::table, shapes);
+    table.table.motion = effects::EffectKind::positioning;
+    design.add(std::move(table));
+    diagnosis::ColumnGroup wave =
+        group_of(design, "Z.cyclic", diagnosis::GroupKind::periodic, ripple);
+    wave.effect = &cyclic;
+    design.keep_as_rival(design.add(std::move(wave)));
+    const diagnosis::SearchSetting setting = diagnosis::search_setting(design, {0.0, 0.1});
+    const diagnosis::Model model = diagnosis::tuned(design, setting, {{0}, {{1.0}, 1.0}, 0.0}, 3);
+    for (const bool between : {true, false}) {
+        const auto claims = claims_of({design, setting}, unrivalled(model), between);
+        const diagnosis::Claim& claim = claim_named(claims, "Z.positioning");
+        INFO(between << ' ' << claim.probability);
+        CHECK((claim.probability < 0.1) == between);
+        CHECK((claim.probability > 0.9) == !between);
+        CHECK(claim.rivals == std::vector<std::string>{"Z.cyclic"});
     }
 }
 
@@ -322,6 +353,25 @@ TEST_CASE(
     CHECK(of(-30.0, 300.0, 30.0) == Approx(of(-30.0, 30.0, 3.0)));
     CHECK(of(30.0, -30.0, 3.0) < 0.01);
     CHECK(diagnosis::probability_against({}) == 1.0);  // no contender
+}
+
+// A drift of 0.1 mm beside free zeros: 1 % of it is left, which is many times the noise.
+TEST_CASE("an effect with keys is seen where the set-up takes up all but a hundredth of it",
+          "[diagnosis]") {
+    using diagnosis::GroupKind;
+    SeededNoise random(41);
+    const Eigen::MatrixXd known = random_matrix(random, 2);
+    const Eigen::MatrixXd course = random_matrix(random, 1);
+    for (const double left : {0.01, 1e-4}) {
+        diagnosis::Design design(known, random_matrix(random, 1).col(0), rows);
+        const Eigen::MatrixXd columns = 100.0 * known.col(0) + 100.0 * left * course;
+        const std::size_t drift =
+            design.add(group_of(design, "thermal.drift", GroupKind::periodic, columns));
+        const std::size_t table = design.add(group_of(design, "Z.x", GroupKind::table, columns));
+        INFO(left);
+        CHECK(design.groups()[drift].visible() == (left == 0.01));
+        CHECK_FALSE(design.groups()[table].visible());
+    }
 }
 
 }  // namespace trunnion

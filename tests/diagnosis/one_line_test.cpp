@@ -68,6 +68,30 @@ TEST_CASE("what one line shows is positioning, with the angle as its rival", "[d
         }
 }
 
+// Y carries the work: the target is as far from the slide of X wherever Y rests.
+TEST_CASE("a second line through the same arm does not tell positioning from the angle",
+          "[diagnosis][line]") {
+    const setup::Setup known = laser_lines::mill("w Y b X Z t", 150.0, 0.4);
+    for (const bool pitch : {false, true})
+        for (int form = 0; form < 3; ++form) {
+            records::ReadingTable table = measured(known, {0.0, 1.0}, form, pitch);
+            for (records::Reading& row : table.rows)
+                if (row.test == "Z1") {
+                    row.commanded[Axis::Y] = 200.0;
+                    row.commanded[Axis::Z] = 0.0;
+                }
+            const diagnosis::Diagnosis d = diagnosed(known, table);
+            INFO(pitch << ' ' << form << ": " << said(d));
+            CHECK_FALSE(claims(d, "X.angular"));
+            const diagnosis::Cause* positioning = cause_of(d, "X.positioning");
+            REQUIRE(positioning);
+            CHECK(std::count(positioning->rivals.begin(), positioning->rivals.end(), "X.angular") ==
+                  1);
+            CHECK(positioning->probability > 0.5);
+            CHECK(positioning->probability < 0.7);
+        }
+}
+
 TEST_CASE("a second line at another height tells positioning from the angle", "[diagnosis][line]") {
     const setup::Setup known = laser_lines::mill("w Y b X Z t", 150.0, 0.4);
     for (const bool pitch : {false, true})

@@ -7,6 +7,7 @@
 #include "identification/identify.h"
 #include "identification/keys.h"
 #include "tests/support/campaign.h"
+#include "tests/support/laser_lines.h"
 
 namespace trunnion {
 namespace {
@@ -136,6 +137,36 @@ TEST_CASE("a key some values of the grid away is found, below and above", "[iden
         CHECK(identification::refine_keys(fit.replay, fit.base, drift, start,
                                           fit.base.residual_mm)[3] ==
               Approx(1.05 * grid[middle]).epsilon(0.01));
+    }
+}
+
+// Over a metre a period of 10 mm that is wrong by 1 % is a turn off: what it explains has many
+// peaks between the values of the grid.
+TEST_CASE("a period is refined on the highest peak of a long travel", "[identification]") {
+    const setup::Setup setup = laser_lines::stage();
+    records::ReadingTable table = laser_lines::empty_table();
+    laser_lines::add_runs(table, {"L", Axis::X, 0.0, 17.3, 60});
+    const effects::Catalogue catalogue =
+        effects::make_catalogue(setup, effects::extent_of(setup, table));
+    const effects::Effect& ripple = *effects::find_effect(catalogue, "X.cyclic");
+    const std::vector<double>& grid = ripple.parameters[2].grid;
+    for (const double period_mm : {8.0, 10.0, 16.0, 25.4}) {
+        const records::ReadingTable readings = campaign::measured(
+            campaign::with_effect(setup, fmt::format("X.cyclic: cos_mm=0.003, sin_mm=0.002, "
+                                                     "period_mm={}",
+                                                     period_mm)),
+            table, 1, 0.0);
+        const emulator::Replay replay(setup, readings);
+        const identification::BaseModel base =
+            identification::fit_base(setup, readings, replay, catalogue, {});
+        const auto above = std::upper_bound(grid.begin(), grid.end(), period_mm);
+        for (const double from : {*(above - 2), *(above - 1), *above, *(above + 1)}) {
+            std::vector<double> start = ripple.zeros();
+            start[2] = from;
+            INFO(period_mm << " from " << from);
+            CHECK(identification::refine_keys(replay, base, ripple, start, base.residual_mm)[2] ==
+                  Approx(period_mm).epsilon(2e-4));
+        }
     }
 }
 
