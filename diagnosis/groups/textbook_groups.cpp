@@ -157,9 +157,13 @@ double prior_of(const effects::Effect& effect) {
     return of_scales ? rules::gain_prior : rules::effect_prior;
 }
 
-bool is_upright(const Prepared& p, Axis axis) {
-    const kinematics::AxisGeometry* geometry = p.base.setup.machine.chain.find(axis);
-    return geometry && geometry->direction.cross(Vector3::UnitZ()).norm() < 1e-3;
+/// True where the first rotary axis that carries the work, whose load gravity_sag() is about, turns
+/// about Z of M, along which gravity acts.
+bool carries_upright(const kinematics::Chain& chain) {
+    const auto first =
+        std::find_if(chain.work.begin(), chain.work.end(),
+                     [](const kinematics::AxisGeometry& axis) { return axis.rotary; });
+    return first != chain.work.end() && first->direction.cross(Vector3::UnitZ()).norm() < 1e-3;
 }
 
 /// A change may concern an effect that the simulation already contains.
@@ -168,8 +172,8 @@ bool offered(const Prepared& p, const effects::Effect& effect, const Since& sinc
     // Through two places there is no bow, only a slope.
     if (effect.kind == effects::EffectKind::straightness && is_at_two_places(p, *effect.axis))
         return false;
-    // Gravity acts along Z: an axis along Z never turns its load against it.
-    if (effect.kind == effects::EffectKind::gravity_sag && is_upright(p, *effect.axis))
+    if (effect.kind == effects::EffectKind::gravity_sag &&
+        carries_upright(p.base.setup.machine.chain))
         return false;
     // Of one axis that moves, the stretch is its scale.
     if (effect.kind == effects::EffectKind::machine_expansion && moving_linear_axes(p) < 2)
