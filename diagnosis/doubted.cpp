@@ -13,7 +13,7 @@ bool is_improbable_ripple(const Outcome& f, const Claim& claim) {
     if (claim.probability >= rules::claimed || !f.judgement.interpolates[claim.position])
         return false;
     if (f.design.group(f.model.members[claim.position]).kind == GroupKind::periodic) return true;
-    if (claim.rival_groups.empty()) return false;
+    if (claim.rival_groups.empty() || claim.share < rules::between_part) return false;
     const Design::Entry& nearest = f.design.groups()[claim.rival_groups.front()];
     return nearest.only_rival && nearest.group.kind == GroupKind::periodic;
 }
@@ -33,9 +33,11 @@ std::optional<Judgement> doubted(const Outcome& f, const std::vector<Claim>& cla
     for (const Claim& claim : claims) {
         if (!is_improbable_ripple(f, claim)) continue;
         if (claim.share >= rules::between_part) judgement.between_places = false;
-        for (std::size_t k = 0; k < f.model.members.size(); ++k)
-            if (f.design.group(f.model.members[k]).name == claim.name)
-                judgement.interpolates[k] = false;
+        const GroupKind kind = f.design.group(f.model.members[claim.position]).kind;
+        for (std::size_t k = 0; k < f.model.members.size(); ++k) {
+            const ColumnGroup& group = f.design.group(f.model.members[k]);
+            if (group.name == claim.name && group.kind == kind) judgement.interpolates[k] = false;
+        }
     }
     const std::vector<double> sizes = usual_sizes(f.design, f.model);
     for (std::size_t k = 0; k < f.model.members.size(); ++k) {

@@ -204,7 +204,7 @@ std::optional<MistakenTable> mistaken_table(const Prepared& p, const SearchResul
     const double right_left = std::max(1.0, right->left);
     const double evidence = blocks * std::log(std::max(1.0, now.left) / right_left) +
                             0.5 * (now.columns - right->columns) * std::log(std::max(2.0, blocks));
-    if (evidence < -std::log(rules::mistaken_odds)) return std::nullopt;  // rather not
+    if (evidence < 0.0) return std::nullopt;  // beforehand a table is rarely mistaken
     return MistakenTable{sentence(*best), evidence > rules::plain_evidence};
 }
 

@@ -21,7 +21,7 @@ struct SearchResult {
 
 /// The simple change of a table (two columns exchanged, a sign turned, mm for inches, ..) that
 /// explains nearly everything: with it the set-up alone leaves much less than it leaves now, and
-/// the evidence of a search among causes in the table put right is well above that of the
+/// the evidence of a search among causes in the table put right is not below that of the
 /// causes found in it as it stands. Only looked for where the set-up alone is far from the
 /// readings.
 std::optional<MistakenTable> mistaken_table(const Prepared& prepared, const SearchResult& found,

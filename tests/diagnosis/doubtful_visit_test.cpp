@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
+#include "diagnosis/rules/rules.h"
 #include "tests/support/campaign.h"
 #include "tests/support/diagnosed.h"
 #include "tests/support/measured_machines.h"
@@ -26,7 +27,7 @@ TEST_CASE("a first visit that is wrong makes no cause certain, and is named as a
         INFO(seed << ": " << said(d));
         REQUIRE(spoiled == 3);
         for (const diagnosis::Cause& cause : d.causes) {
-            if (cause.known) CHECK(cause.probability < 0.9);
+            if (cause.known) CHECK(cause.probability < diagnosis::rules::sure);
             named = named ||
                     std::count(cause.rivals.begin(), cause.rivals.end(), "reading.spoiled") > 0;
         }
