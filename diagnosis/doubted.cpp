@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "diagnosis/rules/rules.h"
+#include "diagnosis/search/solution.h"
 
 namespace trunnion::diagnosis {
 namespace {
