@@ -18,7 +18,6 @@ struct SquaredSums {
     double independent = 0.0;
     double whitened_before = 0.0, whitened_after = 0.0;  ///< divided by the variance of the noise
     double freedom = 0.0;       ///< readings, less the zeros that they determine
-    std::vector<double> saved;  ///< whitened squares that the causes remove, by block
     std::size_t set_aside = 0;  ///< spoiled readings, in none of the sums
 };
 
@@ -101,7 +100,7 @@ SquaredSums sums_of(const Outcome& f, const setup::Setup& setup,
     const std::vector<double> part = noise_left(held);
     SquaredSums sums;
     for (const NoiseBlock& block : held.blocks) {
-        double b = 0, a = 0, n = 0, rows = 0, saved = 0;
+        double b = 0, a = 0, n = 0, rows = 0;
         for (const Eigen::Index i : block.rows) {
             const auto k = static_cast<std::size_t>(i);
             if (!held.used[k]) {
@@ -115,7 +114,6 @@ SquaredSums sums_of(const Outcome& f, const setup::Setup& setup,
             n += part[k] * own;
             sums.whitened_before += before / own;
             sums.whitened_after += after / own;
-            saved += (before - after) / own;
             sums.freedom += part[k];
             rows += 1.0;
         }
@@ -123,22 +121,9 @@ SquaredSums sums_of(const Outcome& f, const setup::Setup& setup,
         sums.before.push_back(b);
         sums.after.push_back(a);
         sums.noise.push_back(n);
-        sums.saved.push_back(saved);
         sums.independent += f.noise.model.of(block.device).independent(rows);
     }
     return sums;
-}
-
-/// What the causes remove, as far as these readings can say: where they do not decide (two sigma,
-/// by the scatter of the blocks), the most that they allow.
-double saved_at_most(const std::vector<double>& saved) {
-    const auto blocks = static_cast<double>(saved.size());
-    const double sum = total(saved);
-    if (blocks < 2.0) return sum;
-    double square = 0.0;
-    for (const double s : saved) square += std::pow(s - sum / blocks, 2);
-    const double doubt = 2.0 * std::sqrt(square * blocks / (blocks - 1.0));
-    return std::max(sum, std::min(doubt, sum + doubt));
 }
 
 }  // namespace
@@ -150,7 +135,7 @@ double measured_part(const Outcome& f, const setup::Setup& setup,
     const double chance = 3.0 * std::sqrt(2.0 * rows);  // three sigma of the squared noise itself
     // Readings without a gap say nothing of the causes, unless these would make one.
     if (excess < chance) return sums.whitened_after - sums.whitened_before < chance ? 1.0 : 0.0;
-    return saved_at_most(sums.saved) / excess;
+    return (sums.whitened_before - sums.whitened_after) / excess;
 }
 
 HeldOut measured_shrink(const Outcome& f, const setup::Setup& setup,

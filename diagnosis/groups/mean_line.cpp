@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "diagnosis/prepare/places.h"
 #include "effects/polynomials.h"
 
 namespace trunnion::diagnosis {
@@ -36,11 +37,7 @@ bool is_bow_to_one_side(const Prepared& p, const ColumnGroup& group) {
         std::any_of(group.parameters.begin(), group.parameters.end(),
                     [&](std::size_t k) { return parameters[k].mean_line; }))
         return false;
-    double low = 1e300, high = -1e300;
-    for (std::size_t i = 0; i < p.replay.size(); ++i) {
-        low = std::min(low, p.replay.sample(i).position[*group.effect->axis]);
-        high = std::max(high, p.replay.sample(i).position[*group.effect->axis]);
-    }
+    const auto [low, high] = range_of(p, *group.effect->axis);
     return std::abs(low + high) > 0.5 * (high - low);
 }
 

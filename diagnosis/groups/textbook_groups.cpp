@@ -10,6 +10,7 @@
 #include "diagnosis/groups/candidate_groups.h"
 #include "diagnosis/groups/few_places.h"
 #include "diagnosis/groups/mean_line.h"
+#include "diagnosis/prepare/places.h"
 #include "diagnosis/rules/rules.h"
 
 namespace trunnion::diagnosis {
@@ -184,12 +185,7 @@ bool offered(const Prepared& p, const effects::Effect& effect, const Since& sinc
 /// True when a rotary axis was read over less than half a turn, where harmonics look alike.
 bool is_part_of_turn(const Prepared& p, const effects::Effect& effect) {
     if (!effect.axis) return false;
-    double low = 1e300, high = -1e300;
-    for (std::size_t i = 0; i < p.replay.size(); ++i) {
-        low = std::min(low, p.replay.sample(i).position[*effect.axis]);
-        high = std::max(high, p.replay.sample(i).position[*effect.axis]);
-    }
-    return high - low < pi;
+    return range_of(p, *effect.axis).span() < pi;
 }
 
 /// Forms of an error of a rotary axis with few of its harmonics: over part of a turn, where they

@@ -9,6 +9,7 @@ namespace trunnion::diagnosis {
 namespace {
 
 constexpr std::size_t least_pairs = 20, most_pairs = 400;
+constexpr double near = 0.25;  ///< of the ranges of the axes: further off is no neighbour (assumed)
 constexpr double same_direction = 0.999;             ///< cosine
 constexpr double median_of_square = 0.454936423119;  ///< of a squared standard normal deviate
 
@@ -48,7 +49,7 @@ double variance_of_neighbours(const emulator::Replay& replay, const std::vector<
     const std::size_t step = 1 + replay.size() / most_pairs;
     for (std::size_t i = 0; i < replay.size(); i += step) {
         if (!counts(i)) continue;
-        double nearest = 1e300, difference = 0.0;
+        double nearest = near * near, difference = 0.0;
         for (std::size_t j = 0; j < replay.size(); ++j) {
             if (j == i || !counts(j) || !is_alike(i, j)) continue;
             const double distance = (places[i] - places[j]).squaredNorm();
@@ -56,7 +57,7 @@ double variance_of_neighbours(const emulator::Replay& replay, const std::vector<
             nearest = distance;
             difference = white(static_cast<Eigen::Index>(i)) - white(static_cast<Eigen::Index>(j));
         }
-        if (nearest < 1e300) squares.push_back(0.5 * difference * difference);
+        if (nearest < near * near) squares.push_back(0.5 * difference * difference);
     }
     if (squares.size() < least_pairs) return 0.0;
     return estimation::quantile(squares, 0.5) / median_of_square;

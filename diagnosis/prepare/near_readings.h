@@ -10,10 +10,11 @@ namespace trunnion::diagnosis {
 
 /// Variance of residuals that neighbours do not share: half the square of the difference of each
 /// reading and the nearest one of the same device and direction, by the positions of the axes in
-/// parts of their ranges. Errors that follow the position are alike there and cancel; what is left
-/// is noise, or finer than the distance of the readings. By the median, so that a few spoiled
-/// readings do not matter. Only static readings in places of their own, which an instrument takes
-/// one by one (angle, point). `white`: residuals in sigma by device row. 0 below 20 pairs.
+/// parts of their ranges, within a quarter (the joints of an arm have hardly any). Errors that
+/// follow the position are alike there and cancel; what is left is noise, or finer than the
+/// distance of the readings. By the median, so that a few spoiled readings do not matter. Only
+/// static readings in places of their own, which an instrument takes one by one (angle, point).
+/// `white`: residuals in sigma by device row. 0 below 20 pairs.
 double variance_of_neighbours(const emulator::Replay& replay, const std::vector<bool>& used,
                               const Eigen::VectorXd& white);
 

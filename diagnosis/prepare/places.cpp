@@ -24,37 +24,34 @@ SharedZero shared_of(const Prepared& p, std::size_t row) {
     return {c.device, c.zero, c.artefact, c.instrument, p.replay.session(row)};
 }
 
-double range_of(const Prepared& p, Axis axis) {
-    double low = HUGE_VAL, high = -HUGE_VAL;
-    for (std::size_t i = 0; i < p.replay.size(); ++i) {
-        low = std::min(low, p.replay.sample(i).position[axis]);
-        high = std::max(high, p.replay.sample(i).position[axis]);
-    }
-    return high - low;
-}
-
 }  // namespace
 
+Range range_of(const Prepared& p, Axis axis) {
+    Range range{HUGE_VAL, -HUGE_VAL};
+    for (std::size_t i = 0; i < p.replay.size(); ++i) {
+        range.low = std::min(range.low, p.replay.sample(i).position[axis]);
+        range.high = std::max(range.high, p.replay.sample(i).position[axis]);
+    }
+    return range;
+}
+
 std::vector<bool> tells_place(const Prepared& p, Axis axis) {
-    struct Span {
-        double low = HUGE_VAL, high = -HUGE_VAL;
-    };
     const double least = p.table.names.is_rotary(axis) ? least_response : least_of_response;
     std::vector<bool> tells(p.replay.size());
-    std::map<SharedZero, Span> spans;
+    std::map<SharedZero, Range> spans;
     for (std::size_t i = 0; i < p.replay.size(); ++i) {
         const double response = response_of(p, i, axis);
         tells[i] = response >= least;
         if (!tells[i]) continue;
-        Span& span = spans[shared_of(p, i)];
-        span.low = std::min(span.low, p.replay.sample(i).position[axis]);
-        span.high = std::max(span.high, p.replay.sample(i).position[axis]);
+        Range& range = spans.try_emplace(shared_of(p, i), Range{HUGE_VAL, -HUGE_VAL}).first->second;
+        range.low = std::min(range.low, p.replay.sample(i).position[axis]);
+        range.high = std::max(range.high, p.replay.sample(i).position[axis]);
     }
-    const double same = same_position * range_of(p, axis);
+    const double same = same_position * range_of(p, axis).span();
     for (std::size_t i = 0; i < p.replay.size(); ++i) {
         if (!tells[i]) continue;
-        const Span& span = spans[shared_of(p, i)];
-        tells[i] = span.high - span.low > same;
+        const Range& range = spans[shared_of(p, i)];
+        tells[i] = range.span() > same;
     }
     return tells;
 }

@@ -7,6 +7,14 @@
 
 namespace trunnion::diagnosis {
 
+/// The least and the greatest position of an axis, mm or rad.
+struct Range {
+    double low = 0.0, high = 0.0;
+    double span() const { return high - low; }
+};
+/// Among all device rows.
+Range range_of(const Prepared& prepared, Axis axis);
+
 /// Squared derivatives of the readings at one position by a displacement of the axis there, divided
 /// by their variances.
 struct Place {

@@ -194,22 +194,4 @@ TEST_CASE("a servo log with an axis at rest has no exchanged columns", "[diagnos
     for (const std::string& note : d.notes) CHECK_THAT(note, !Catch::Contains("exchanged"));
 }
 
-TEST_CASE("readings held out that decide nothing do not take a cause away", "[diagnosis]") {
-    setup::Setup real = bench();
-    real.effects.push_back({"XY.squareness", {{"angle_rad", {40e-6}}}});
-    records::ReadingTable table = emulator::predicted(real, plate(), effects::active_models(real));
-    add_noise(table, 1e-3, 1);
-    records::ReadingTable held = plate();
-    std::erase_if(held.rows, [](const records::Reading& row) { return row.index >= 20; });
-    for (records::Reading& row : held.rows) row.commanded[Axis::X] += 13.0;
-    held = emulator::predicted(real, held, effects::active_models(real));
-    add_noise(held, 12e-3, 2);  // a part that was touched by hand
-    diagnosis::DiagnosisOptions options;
-    options.holdout = &held;
-    const diagnosis::Diagnosis d = diagnosis::diagnose(bench(), table, options);
-    INFO(said(d));
-    CHECK(probability_of(d, "XY.squareness") > 0.0);
-    CHECK(d.verdict != diagnosis::Verdict::no_gap);
-}
-
 }  // namespace trunnion
