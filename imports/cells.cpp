@@ -18,11 +18,36 @@ bool digit(char c) {
     return c >= '0' && c <= '9';
 }
 
-/// A comma between two digits, as in 1,5.
+/// A comma between two digits, as in 1,5. In 1,250.5 it parts thousands.
 bool has_decimal_comma(std::string_view text) {
-    for (std::size_t k = 1; k + 1 < text.size(); ++k)
-        if (text[k] == ',' && digit(text[k - 1]) && digit(text[k + 1])) return true;
+    for (std::size_t k = 1; k + 1 < text.size(); ++k) {
+        if (text[k] != ',' || !digit(text[k - 1]) || !digit(text[k + 1])) continue;
+        const std::size_t after = std::min(text.find_first_not_of("0123456789,", k), text.size());
+        const bool point = (after - k) % 4 == 0 && after < text.size() && text[after] == '.';
+        if (!point) return true;
+    }
     return false;
+}
+
+/// Marks of a number: "1,250.5" or "1.250,5".
+struct Marks {
+    char decimal, thousands;
+};
+
+/// True where marks of thousands stand before a decimal mark, each before three digits: one kind of
+/// number only.
+bool parts_thousands(std::string_view text, Marks marks) {
+    if (!text.empty() && (text[0] == '-' || text[0] == '+')) text.remove_prefix(1);
+    const std::size_t point = text.find(marks.decimal), first = text.find(marks.thousands);
+    if (point == std::string_view::npos || first == 0 || first > 3 || first > point) return false;
+    if (!std::all_of(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(first), digit))
+        return false;
+    std::size_t k = first;
+    for (; k + 4 <= point && text[k] == marks.thousands; k += 4)
+        if (!std::all_of(text.begin() + static_cast<std::ptrdiff_t>(k) + 1,
+                         text.begin() + static_cast<std::ptrdiff_t>(k) + 4, digit))
+            return false;
+    return k == point && text.find(marks.thousands, point) == std::string_view::npos;
 }
 
 bool is_blank(char c) {
@@ -96,10 +121,12 @@ bool marks_between_blanks(const std::vector<records::TableLine>& lines, char mar
 }  // namespace
 
 std::optional<double> Dialect::find_number(std::string_view text) const {
-    if (!decimal_comma) return parse_number(text);
-    if (text.find('.') != std::string_view::npos) return std::nullopt;
-    if (text.find(',') == std::string_view::npos) return parse_number(text);
+    const Marks marks = decimal_comma ? Marks{',', '.'} : Marks{'.', ','};
+    const bool thousands = text.find(marks.thousands) != std::string_view::npos;
+    if (thousands && !parts_thousands(text, marks)) return std::nullopt;
+    if (!thousands && !decimal_comma) return parse_number(text);
     std::string point(text);
+    if (thousands) std::erase(point, marks.thousands);
     std::replace(point.begin(), point.end(), ',', '.');
     return parse_number(point);
 }

@@ -158,6 +158,7 @@ std::optional<std::size_t> target_column(const TextTable& table) {
                 {"commanded", "command", "cmd", "commandedposition", "setpoint"},
                 {"reference", "referenceangle", "ref"},
                 {"position", "pos", "positionmm", "angle", "winkel"},
+                {"pi", "p"},  // ISO 230-2: target position P_i
                 {"x", "y", "z", "a", "b", "c"}});
     if (named) return named;
     for (std::size_t k = 0; k < table.columns().size(); ++k)

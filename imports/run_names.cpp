@@ -1,6 +1,7 @@
 #include "imports/run_names.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 #include <string_view>
@@ -180,6 +181,14 @@ bool is_beside_reading(const std::string& word) {
     return is_reading(word) || words.contains(word);
 }
 
+/// "I" to "IX", which number the runs of some tables; 0 for other words, also for the axis X.
+int roman_number(const std::string& word) {
+    constexpr std::array<const char*, 9> numerals{"i",  "ii",  "iii",  "iv", "v",
+                                                  "vi", "vii", "viii", "ix"};
+    const auto* const it = std::find(numerals.begin(), numerals.end(), word);
+    return it == numerals.end() ? 0 : static_cast<int>(it - numerals.begin()) + 1;
+}
+
 bool is_digit(char c) {
     return c >= '0' && c <= '9';
 }
@@ -214,6 +223,10 @@ class NameReader {
         for (std::size_t k = 0; k < text_.size(); ++k) take(k);
         finish();
         const bool both = up_ && down_;
+        // "I+" is a run; without a direction "I" is an index.
+        const bool roman = roman_ > 0 && up_ != down_ && result_.run == 0;
+        if (roman) result_.run = roman_;
+        result_.other |= unknown_ && !roman;
         result_.other |= both || (axis_ && !up_ && !down_);
         result_.direction = both ? 0 : up_ ? 1 : down_ ? -1 : 0;
         return result_;
@@ -243,12 +256,20 @@ class NameReader {
         down_ |= direction < 0;
         result_.lone_r |= word_ == "r";
         axis_ |= is_axis(word_) && direction == 0;
-        result_.other |= direction == 0 && !beside && !filler(word_) && !is_axis(word_);
+        // An index stands behind: "X_fwd(i)".
+        const bool first = !up_ && !down_ && !axis_ && !beside;
+        const int roman = direction == 0 && first ? roman_number(word_) : 0;
+        if (roman > 0) roman_ = roman;
+        const bool known = direction != 0 || beside || filler(word_) || is_axis(word_);
+        unknown_ |= !known && roman > 0;
+        result_.other |= !known && roman == 0;
         word_.clear();
     }
 
     std::string text_, word_;
     bool reading_ = false, up_ = false, down_ = false, axis_ = false;
+    bool unknown_ = false;  ///< a word that is none but a Roman number
+    int roman_ = 0;
     RunName result_;
 };
 

@@ -94,10 +94,13 @@ const Words& more_results() {
 }
 
 bool is_plain_result(const std::string& name) {
-    static const Words whole{"b", "r", "m", "e", "a", "s", "2s", "4s", "sd", "n"};
+    static const Words whole{"b",  "r", "m",  "e",  "a",  "s",  "2s", "4s",
+                             "sd", "n", "bi", "ri", "mi", "ei", "ai", "si"};  // ISO 230-2: B_i ..
     static const Words words{"mean", "avg", "average",    "std", "stdev", "sigma",  "rms",
                              "max",  "min", "mittelwert", "s",   "range", "mittel", "xbar"};
-    return whole.contains(plain_name(name)) || any_of(name, words);
+    const auto has = [&](const char* part) { return name.find(part) != std::string::npos; };
+    const bool bar = has("x\xCC\x84") || has("x\xCC\x85");  // x with a bar above: a mean
+    return bar || whole.contains(plain_name(name)) || any_of(name, words);
 }
 
 /// "Pos. Nr.", "No.", "#", "Index".

@@ -45,6 +45,27 @@ std::set<int> sides(const std::string& text, const std::vector<std::string>& tol
 
 }  // namespace
 
+TEST_CASE("names of ISO 230-2, Roman runs and marks of thousands are read", "[imports][ways]") {
+    const std::string expected = rows_of(one_table);
+    const auto with_names = [](const std::string& names) {
+        return names + one_table.substr(one_table.find("\n0,"));
+    };
+    CHECK(rows_of(with_names("target [mm],I+ [um],I- [um],II+ [um],II- [um]")) == expected);
+    CHECK(rows_of(with_names("P_i [mm],1+ [um],1- [um],2+ [um],2- [um]")) == expected);
+    // An index, a mean and a reversal value are no readings.
+    CHECK(rows_of("i,P_i [mm],1+ [um],1- [um],2+ [um],2- [um],x\xCC\x84_i [um],B_i [um]\n"
+                  "1,0,0,3,0.4,3.4,1.7,3\n2,100,1,5,1.4,5.4,3.2,4\n3,200,2,4,2.4,4.4,3.2,2\n") ==
+          expected);
+    const std::string list = rows_of("target [mm];error [um]\n900;0,1\n1000;0,2\n1234567;0,3\n");
+    CHECK(rows_of("target [mm]\terror [um]\n900.0\t0.1\n1,000.0\t0.2\n1,234,567.0\t0.3\n") == list);
+    CHECK(rows_of("target [mm];error [um]\n900,0;0,1\n1.000,0;0,2\n1.234.567,0;0,3\n") == list);
+    CHECK(rows_of("target [mm],error [um]\n900.0,0.1\n\"1,000.0\",0.2\n\"1,234,567.0\",0.3\n") ==
+          list);
+    refuses(import_bench::setup(),
+            {iso, "target [mm];error [um]\n900,0;0,1\n10.00,0;0,2\n", {"axis=X"}, ""}, "10.00,0",
+            3);
+}
+
 TEST_CASE("two tables with the two directions of an axis are one test", "[imports][ways]") {
     const std::string expected = rows_of(one_table);
     const std::string plus = "target [mm],1+ [um],2+ [um]\n" + up,
