@@ -27,6 +27,11 @@ class Comparer {
             options.start = offsets::axis_positions_of(log.rows.front().at);
         return {log, program_, programs_, options};
     }
+    /// The same log with another program, which must outlive the result.
+    Comparer of(const interpreter::ProgramText& program) const {
+        return {log_, program, programs_, options_};
+    }
+    const interpreter::ProgramText& program() const { return program_; }
     ControlPath path(const setup::Setup& setup) const {
         return path_of(setup, program_, programs_, options_);
     }

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "choices/block_texts.h"
+#include "choices/edit_rivals.h"
 #include "choices/far_blocks.h"
 #include "choices/folds.h"
 #include "choices/gap_causes.h"
@@ -97,8 +98,10 @@ void tell_causes(const GapQuestion& question, const GapSearch& found, const Comp
     if (by.row_limit == infinite_loss)
         for (GapCause& cause : gap.causes) cap_probability(cause, gap.explained);
     cap_by_needed(question, found, by, gap.causes);
+    share_with_edits(question, found, by, gap.causes);
     for (std::size_t k = 0; k < found.steps.size(); ++k)
-        if (is_claimed(gap.causes[k])) found.steps[k].chosen.take(gap.setup);
+        if (is_claimed(gap.causes[k]) && !may_be_edit(gap.causes[k]))
+            found.steps[k].chosen.take(gap.setup);
     std::stable_sort(gap.causes.begin(), gap.causes.end(),
                      [](const GapCause& a, const GapCause& b) { return a.share > b.share; });
     const double part = reached(base.losses, found.run.losses, by.row_limit);
@@ -222,6 +225,10 @@ Answer judged(const Asked& asked, LogOfProgram log) {
     for (std::size_t row = 0; row < blocks.size(); ++row)
         if (found.run.losses[row] > by.row_limit) left.insert(blocks[row]);
     out.left = left.size();
+    if (is_left(gap))
+        if (const std::string edit = agreeing_edit(question, found, base, by); !edit.empty())
+            gap.notes.push_back("the log agrees if " + edit +
+                                ": the program that ran may have been edited there");
     if (is_left(gap))
         if (const std::string meaning = agreeing_columns(comparer, question.setup, base.loss);
             !meaning.empty())

@@ -8,6 +8,7 @@
 
 #include "choices/folds.h"
 #include "choices/joint_stores.h"
+#include "choices/passed_stop.h"
 
 namespace trunnion::choices {
 
@@ -180,15 +181,15 @@ class Searcher {
         weigh_stores_together();
         return found_.run.loss < before;  // else a further store was only for a foreign block
     }
-    /// The present run ends in an alarm, and the other is nowhere better before.
+    /// The present run ends in an alarm, and the rows before it do not ask for the other.
     bool only_goes_on(const ComparedRun& other) const {
-        const ControlPath& own = found_.run.path;
-        if (!own.alarm) return false;
-        return std::none_of(found_.run.pairs.begin(), found_.run.pairs.end(),
-                            [&](const Pair& pair) {
-                                return pair.node + 1 < own.nodes.size() &&
-                                       found_.run.losses[pair.row] - other.losses[pair.row] > 1.0;
-                            });
+        if (!found_.run.path.alarm) return false;
+        const auto before = before_stop(comparer_, found_.run, other);
+        if (!before) return false;
+        const double rest = scorer_.noise_loss() * (1.0 - static_cast<double>(before->rows) /
+                                                              static_cast<double>(blocks_.size()));
+        return scorer_.score(before->other + rest, 0) <=
+               scorer_.score(before->own + rest, 0) + least_gain;
     }
     /// Replaces the stores found one by one by those that explain most together.
     void weigh_stores_together() {

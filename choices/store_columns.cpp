@@ -16,7 +16,8 @@ using offsets::ControlPosition;
 /// mm or deg, for the derivatives; the next one is used if a step changes the sequence of moves.
 constexpr double steps[] = {1e-3, -1e-3, 1e-2, -1e-2};
 constexpr double least_influence = 1e-6;
-constexpr double still_falls = 0.99;  ///< of the loss, from iteration to iteration
+constexpr double most_influence = 10.0;  ///< of a number on a point of the path, mm or deg
+constexpr double still_falls = 0.99;     ///< of the loss, from iteration to iteration
 
 ControlPosition at(const ControlPath& path, const Pair& pair) {
     const ControlPosition& end = path.nodes[pair.node].at;
@@ -46,16 +47,58 @@ void take_out_travel(const ControlPath& path, const Pair& pair, const std::vecto
     for (const Axis axis : axes) v[axis] -= along * way[axis];
 }
 
-/// The path with one number a step farther, and that step; 0 where every step changes the moves.
-std::pair<ControlPath, double> stepped(const Comparer& comparer, const setup::Setup& setup,
-                                       const ControlPath& path, const StoredNumber& number) {
-    for (const double step : steps) {
-        setup::Setup moved = setup;
-        number.in(moved) += step;
-        ControlPath other = comparer.path(moved);
-        if (other.nodes.size() == path.nodes.size()) return {std::move(other), step};
+double distance_of(const ControlPosition& a, const ControlPosition& b) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < axis_count; ++i)
+        sum += (a.value[i] - b.value[i]) * (a.value[i] - b.value[i]);
+    return std::sqrt(sum);
+}
+
+/// `other` without the moves that the step made of none: a move of no length is not in a path.
+/// Nothing if the paths differ in more than that.
+std::optional<ControlPath> without_new_moves(const ControlPath& path, ControlPath other,
+                                             double step) {
+    const double near = most_influence * std::abs(step);
+    const std::size_t none = other.nodes.size();
+    std::vector<PathNode> kept;
+    // How far a node is from the next one of the path; more than `near`: it is another one.
+    const auto apart = [&](std::size_t k) {
+        if (k == none || kept.size() == path.nodes.size()) return 2.0 * near;
+        const PathNode &node = other.nodes[k], &own = path.nodes[kept.size()];
+        const PathBlock &block = other.blocks[node.block], &own_block = path.blocks[own.block];
+        const bool same = block.line == own_block.line && block.program == own_block.program &&
+                          node.end == own.end;
+        return same ? distance_of(node.at, own.at) : 2.0 * near;
+    };
+    for (std::size_t k = 0; k < none; ++k) {
+        // Of two nodes close to each other the new one is farther away, as an overrun is.
+        if (apart(k) <= near && apart(k) <= apart(k + 1))
+            kept.push_back(other.nodes[k]);
+        else if (apart(k) > near &&
+                 (k == 0 || distance_of(other.nodes[k].at, other.nodes[k - 1].at) > near))
+            return std::nullopt;
     }
-    return {{}, 0.0};
+    if (kept.size() != path.nodes.size()) return std::nullopt;
+    other.nodes = std::move(kept);
+    return other;
+}
+
+struct Stepped {
+    ControlPath path;
+    double step = 0.0;       ///< 0: every step changes the moves
+    bool new_moves = false;  ///< which are left out
+};
+
+Stepped stepped(const ControlPath& path, const SteppedPath& path_at) {
+    Stepped out;
+    for (const double step : steps) {
+        ControlPath other = path_at(step);
+        if (other.nodes.size() == path.nodes.size()) return {std::move(other), step, false};
+        if (out.step != 0.0 || other.nodes.size() < path.nodes.size()) continue;
+        if (auto same = without_new_moves(path, std::move(other), step))
+            out = {std::move(*same), step, true};
+    }
+    return out;
 }
 
 /// Loss of a pair after a change `x` of the numbers.
@@ -82,7 +125,17 @@ double value_of(const setup::Setup& setup, const StoredNumber& number) {
 std::optional<Column> column_of(const Comparer& comparer, const setup::Setup& setup,
                                 const ComparedRun& run, const StoredNumber& number,
                                 bool* other_moves) {
-    const auto [path, step] = stepped(comparer, setup, run.path, number);
+    const auto path_at = [&](double step) {
+        setup::Setup moved = setup;
+        number.in(moved) += step;
+        return comparer.path(moved);
+    };
+    return column_of(comparer, run, path_at, other_moves);
+}
+
+std::optional<Column> column_of(const Comparer& comparer, const ComparedRun& run,
+                                const SteppedPath& path_at, bool* other_moves) {
+    const auto [path, step, new_moves] = stepped(run.path, path_at);
     if (step == 0.0) {
         if (other_moves != nullptr) *other_moves = true;
         return std::nullopt;
@@ -97,7 +150,10 @@ std::optional<Column> column_of(const Comparer& comparer, const setup::Setup& se
         most = std::max(most, dot(out[k], out[k], axes));
         if (pair.slides) take_out_travel(run.path, pair, axes, out[k]);
     }
-    return most > least_influence ? std::optional(std::move(out)) : std::nullopt;
+    if (most > least_influence) return out;
+    // Nothing but the new moves depends on it.
+    if (new_moves && other_moves != nullptr) *other_moves = true;
+    return std::nullopt;
 }
 
 std::vector<Column> columns_of(const Comparer& comparer, const setup::Setup& setup,

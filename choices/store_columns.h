@@ -35,6 +35,13 @@ std::optional<Column> column_of(const Comparer& comparer, const setup::Setup& se
                                 const ComparedRun& run, const StoredNumber& number,
                                 bool* other_moves = nullptr);
 
+/// The path with the number a step farther.
+using SteppedPath = std::function<ControlPath(double step)>;
+
+/// The same of any number.
+std::optional<Column> column_of(const Comparer& comparer, const ComparedRun& run,
+                                const SteppedPath& path_at, bool* other_moves = nullptr);
+
 /// Those of several numbers; shorter than the list where one of them has none.
 std::vector<Column> columns_of(const Comparer& comparer, const setup::Setup& setup,
                                const ComparedRun& run, const Numbers& numbers);

@@ -235,4 +235,65 @@ TEST_CASE("numbers of the block that is read ahead do not make a gap of position
     CHECK(stale.causes[0].numbers.size() == 3);
 }
 
+TEST_CASE("rows behind a stop that are left to earlier moves do not ask for another control") {
+    const std::string twice = R"(N10 G90 G21 G17 G54
+N20 G0 X5. Y2. Z30.
+N30 G1 X40. F400
+N40 Y30.
+N50 X0. Y9.
+N60 G4 P0.5
+N70 G1 X42. Y3.
+N80 Y33.
+N90 X4. Y11.
+N100 X40. Y1.
+N110 Y28.
+N120 M30
+)";
+    const auto there = log_bench::setup_of(
+        "[machine]\nname = \"m\"\nchain = \"w b X Y Z t\"\n[control]\ndialect = \"hurco\"\n"
+        "hurco = { rapids_are_interpolated = true }\n");
+    records::PositionLog log = log_bench::log_of(there, twice);
+    log.blocks = records::BlockColumn::none;
+    for (records::LoggedPosition& row : log.rows) row.block = 0;
+    const auto gap = gap_of(mill_of(), log, twice);
+    REQUIRE(!gap.causes.empty());
+    for (const choices::GapCause& cause : gap.causes) CHECK(cause.probability < 0.7);
+    CHECK(gap.causes[0].name == "dialect=hurco");
+    REQUIRE(!gap.causes[0].rivals.empty());
+    CHECK(gap.causes[0].rivals.back() == "another meaning of the block that stops");
+}
+
+TEST_CASE("a log that begins at the end of the first move shows the offset that ends there") {
+    const std::string first = R"(N10 G21 G90 G17 G54
+N20 G43 H1 Z50.
+N30 G0 X10. Y10.
+N40 Z30.
+N50 G1 Z-2. F600
+N60 X60.
+N70 Y40.
+N80 X10. Y12.
+N90 G0 Z30.
+N100 M30
+)";
+    const auto here = mill_of(
+        "work_offsets.G54 = { X = 12.5, Y = -8.0, Z = 3.25 }\n"
+        "tools.1 = { length_mm = 150, diameter_mm = 0 }\n");
+    constexpr double x = 12.6, y = -8.0, z = 153.05;
+    SampledLog log({0, 0, z + 50});
+    log.add(20, {0, 0, z + 50});
+    log.add(30, {x + 10, y + 10, z + 50});
+    log.add(40, {x + 10, y + 10, z + 30});
+    log.add(50, {x + 10, y + 10, z - 2});
+    log.add(60, {x + 60, y + 10, z - 2});
+    log.add(70, {x + 60, y + 40, z - 2});
+    log.add(80, {x + 10, y + 12, z - 2});
+    log.add(90, {x + 10, y + 12, z + 30});
+    const auto gap = gap_of(here, log.log, first);
+    double up = 0.0;
+    for (const choices::GapCause& cause : gap.causes)
+        for (const choices::FittedNumber& number : cause.numbers)
+            if (number.name.back() == 'Z' || number.name == "H1") up += number.to - number.from;
+    CHECK(up == Approx(-0.2).margin(1e-4));
+}
+
 }  // namespace trunnion
