@@ -23,7 +23,7 @@ set(TRUNNION_ROOMS
   "inputs: emulator setup backup interpreter base"
   "effects: emulator records geometry base"
   "estimation"
-  "identification: estimation effects emulator base"
+  "identification: estimation effects emulator records base"
   "regression: emulator setup controller motion positioning interpreter geometry base"
   "choices: estimation emulator setup records controller motion offsets interpreter base"
   "diagnosis/rules"

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "base/rounded.h"
 #include "base/units.h"
 #include "diagnosis/rules/rules.h"
 #include "estimation/ranked_least_squares.h"
@@ -15,6 +17,7 @@ namespace {
 constexpr double unseen_part = 0.7;  ///< fraction of the prior sigma: a larger posterior sigma
                                      ///< means undetermined
 constexpr std::size_t periods_listed = 4;
+constexpr double micro = 1e6;
 
 /// How the parameters of a group follow from the coefficients of its columns.
 Eigen::MatrixXd by_column(const ColumnGroup& group) {
@@ -86,7 +89,8 @@ std::vector<TablePoint> points_of(const ColumnGroup& group, const Eigen::VectorX
                 point.too_far_mm = table.axis.direction(d) * point.value;
             points.push_back(std::move(point));
         }
-    constexpr int places = 36;  // points of a whole turn, from its harmonics
+    // Points of a whole turn, from its harmonics.
+    const int last = table.first_order + table.orders - 1, places = last <= 24 ? 36 : 3 * last;
     for (std::size_t k = 0; k < table.directions.size() && table.knots.empty(); ++k)
         for (int j = 0; j < places; ++j) {
             const double q = 2.0 * pi * j / places;
@@ -103,6 +107,44 @@ std::vector<TablePoint> points_of(const ColumnGroup& group, const Eigen::VectorX
                               "rad", d < 3 ? "mm" : "rad", counts_against(table, d)});
         }
     return points;
+}
+
+/// The order of an angular error of a rotary axis that is one harmonic of the turn; else empty.
+std::optional<int> single_order(const ColumnGroup& group) {
+    const TableForm& table = group.table;
+    if (table.motion != effects::EffectKind::positioning || !table.knots.empty() ||
+        table.directions.size() != 1 || group.shape.cols() != 2)
+        return std::nullopt;
+    for (int n = 0; n < table.orders; ++n)
+        if (!group.shape.middleRows(2 * n, 2).isZero()) return table.first_order + n;
+    return std::nullopt;
+}
+
+/// One harmonic is an error with a name: its cosine and sine as in R.positioning, its size and
+/// where it is largest in words.
+void tell_order(const ColumnGroup& group, int order, const Eigen::VectorXd& own,
+                const Eigen::MatrixXd& covariance, Cause& cause) {
+    const TableForm& table = group.table;
+    const int direction = table.directions.front();
+    const double sign = counts_against(table, direction) ? -1.0 : 1.0;
+    const Eigen::Index at = 2 * (order - table.first_order);
+    const Eigen::Vector2d wave = sign * table_values(group, own).segment<2>(at);
+    const Eigen::MatrixXd by = group.shape.middleRows(at, 2);
+    const Eigen::Vector2d sigma =
+        table_unit(direction) * (by * covariance * by.transpose()).diagonal().cwiseSqrt();
+    for (const int k : {0, 1})
+        cause.parameters.push_back({cause.effect, fmt::format("{}{}_rad", k ? "sin" : "cos", order),
+                                    "rad", -1, table_unit(direction), wave(k), sigma(k)});
+    const double largest_deg = deg_from_rad(std::atan2(wave(1), wave(0))) / order;
+    cause.what = fmt::format(
+        "An error of the angle of order {}, {} periods in a turn: amplitude {} µrad, largest at {} "
+        "deg and every {} deg from there",
+        order, order, three_digits(micro * wave.norm()), three_digits(largest_deg),
+        three_digits(360.0 / order));
+    cause.usual_cause =
+        "that many poles, lobes or supports on the turn: poles of a resolver, clamping or bearing "
+        "of the encoder";
+    cause.remedy = "mount or adjust the encoder anew, or compensate the harmonic";
 }
 
 /// The periods that these positions cannot tell from the one that is named.
@@ -198,8 +240,12 @@ Cause cause_of(const FoundModel& f, const Claim& claim) {
         cause.remedy = group.effect->remedy;
         return cause;
     }
-    cause.points = points_of(group, own, spread);
     cause.holds_between = f.judgement.interpolates[claim.position];
+    if (const auto order = single_order(group)) {
+        tell_order(group, *order, own, spread, cause);
+        return cause;
+    }
+    cause.points = points_of(group, own, spread);
     if (group.table.play) {
         cause.what =
             "The backlash of the axis changes along its travel; beside it, what is the same "

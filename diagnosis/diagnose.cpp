@@ -19,6 +19,7 @@
 #include "diagnosis/search/solution.h"
 #include "diagnosis/store_causes.h"
 #include "effects/settings.h"
+#include "identification/time_constants.h"
 
 namespace trunnion::diagnosis {
 namespace {
@@ -92,9 +93,12 @@ void leave_out_spoiled(const Prepared& p, Searched& s, Round& round, KeySearch& 
     if (doubtful.rows.empty()) return;
     const records::Device device = p.replay.contact(doubtful.rows.front()).device;
     const double scale = round.noise.model.of(device).scale, left = s.model.variances.nu * scale;
-    const auto is_free = [&](std::size_t m) { return s.design.group(m).kind == GroupKind::table; };
+    const auto is_free = [&](std::size_t m) {
+        const GroupKind kind = s.design.group(m).kind;
+        return kind == GroupKind::table || kind == GroupKind::driver;
+    };
     const bool free = std::any_of(s.model.members.begin(), s.model.members.end(), is_free);
-    if (!free && left < explained_left * doubtful.usual) return;  // a free form follows anything
+    if (!free && left < explained_left * doubtful.usual) return;  // these follow anything
     Round fewer = round;
     leave_out(p, doubtful.rows, fewer);
     Searched rest = search_of(p, fewer, keys, nullptr, go_on);
@@ -148,7 +152,8 @@ bool corrected(Prepared& p, Searched& s, Round& round) {
 
 /// The report; causes explain nothing of a table that is mistaken.
 Diagnosis reported(const Outcome& f, DiagnosisOptions options) {
-    const auto mistaken = mistaken_table(f.prepared, {f.design, f.model}, f.used);
+    const auto mistaken =
+        mistaken_table(f.prepared, {f.design, f.model, std::exp(f.noise.prior.log_mean)}, f.used);
     if (!mistaken) return report_of(f, options);
     Judgement judgement = f.judgement;
     if (mistaken->certain) {
@@ -162,19 +167,18 @@ Diagnosis reported(const Outcome& f, DiagnosisOptions options) {
     return d;
 }
 
-}  // namespace
-
-Diagnosis diagnose(const setup::Setup& setup, const records::ReadingTable& table,
-                   const DiagnosisOptions& options) {
+/// The answer for a setup that has the time constants of its drives.
+Diagnosis answer_of(const setup::Setup& setup, const records::ReadingTable& table,
+                    const DiagnosisOptions& options) {
     if (options.over_sessions)
-        if (const auto named = files_as_sessions(table)) return diagnose(setup, *named, options);
+        if (const auto named = files_as_sessions(table)) return answer_of(setup, *named, options);
     if (const auto once = without_copies(table)) {
-        Diagnosis d = diagnose(setup, *once, options);
+        Diagnosis d = answer_of(setup, *once, options);
         d.copies = table.rows.size() - once->rows.size();
         return d;
     }
-    if (const auto fewer = thinned(table, most_readings)) {
-        Diagnosis d = diagnose(setup, *fewer, options);
+    if (const auto fewer = thinned(table, most_readings, setup.time_constant_s)) {
+        Diagnosis d = answer_of(setup, *fewer, options);
         d.chosen_from = static_cast<std::size_t>(std::count_if(
             table.rows.begin(), table.rows.end(),
             [](const records::Reading& row) { return row.device != records::Device::none; }));
@@ -218,6 +222,13 @@ Diagnosis diagnose(const setup::Setup& setup, const records::ReadingTable& table
     d.unfinished = found.ended;  // else only the next measurement may be missing
     if (const auto gap = store_gap(setup, table)) add_store_gap(setup, *gap, options.holdout, d);
     return d;
+}
+
+}  // namespace
+
+Diagnosis diagnose(const setup::Setup& setup, const records::ReadingTable& table,
+                   const DiagnosisOptions& options) {
+    return answer_of(identification::with_time_constants(setup, table), table, options);
 }
 
 }  // namespace trunnion::diagnosis

@@ -95,12 +95,13 @@ struct BestSlip {
     double before = 0.0, left = 0.0;  ///< in sigma of the table as it is
 };
 
-/// The change that leaves least.
-std::optional<BestSlip> best_slip(const setup::Setup& setup, const records::ReadingTable& all) {
+/// The change that leaves least. `noise`: of the readings, in sigma.
+std::optional<BestSlip> best_slip(const setup::Setup& setup, const records::ReadingTable& all,
+                                  double noise) {
     const auto fewer = thinned(all, enough_readings);
     const records::ReadingTable& table = fewer ? *fewer : all;
     const auto before = left_by_set_up(setup, table, {}, {});
-    if (!before || before->left < rules::mistaken_sigmas) return std::nullopt;
+    if (!before || before->left < rules::mistaken_sigmas * noise) return std::nullopt;
     std::optional<BestSlip> best;
     for (TableSlip& slip : slips_of(table)) {
         const auto left = left_by_set_up(setup, table, slip, before->sigma_mm);
@@ -108,6 +109,8 @@ std::optional<BestSlip> best_slip(const setup::Setup& setup, const records::Read
         if (!best || left->left < best->left)
             best = BestSlip{std::move(slip), before->left, left->left};
     }
+    if (best) best->before /= noise;
+    if (best) best->left /= noise;
     return best;
 }
 
@@ -115,6 +118,14 @@ std::string sentence(const BestSlip& best) {
     return fmt::format(
         "The readings are no machine's as they stand: {}. With that undone the set-up alone leaves "
         "{} times their noise instead of {} times. Correct the table and diagnose it again",
+        best.slip.words, three_digits(best.left), three_digits(best.before));
+}
+
+/// The same where causes explain the readings about as well.
+std::string doubt(const BestSlip& best) {
+    return fmt::format(
+        "The table may be mistaken: {}. With that undone the set-up alone leaves {} times the "
+        "noise instead of {} times, and causes explain the rest about as well. Look at the table",
         best.slip.words, three_digits(best.left), three_digits(best.before));
 }
 
@@ -136,7 +147,8 @@ Explained explained_by(const Prepared& p, const SearchResult& found, const std::
 }
 
 /// The same of the table put right: the machine has causes of its own beside the slip.
-std::optional<Explained> explained_when_right(const BestSlip& best, const Prepared& as_is) {
+std::optional<Explained> explained_when_right(const BestSlip& best, const Prepared& as_is,
+                                              double noise) {
     try {
         const records::ReadingTable right = undone(best.slip, as_is.table);
         Prepared p = prepare(as_is.replay.setup(), right);
@@ -147,7 +159,7 @@ std::optional<Explained> explained_when_right(const BestSlip& best, const Prepar
         KeySearch keys(p.replay, p.base);
         Searched s = search_of(p, round, keys, nullptr, {});
         return explained_by(p, {s.design, s.model}, round.used, best.slip,
-                            sigma_beside(as_is.base.sigma_mm, p.base.sigma_mm, best.slip));
+                            noise * sigma_beside(as_is.base.sigma_mm, p.base.sigma_mm, best.slip));
     } catch (const InputError&) {
         return std::nullopt;
     }
@@ -184,7 +196,7 @@ std::optional<MistakenTable> wrong_size(const Prepared& p, double left) {
 
 std::optional<MistakenTable> mistaken_table(const Prepared& p, const SearchResult& found,
                                             const std::vector<bool>& used) {
-    const Eigen::VectorXd sigma = p.base.sigma_mm;
+    const Eigen::VectorXd sigma = found.noise * p.base.sigma_mm;
     const double before =
         furthest_off(p.replay, set_up_left_mm(p, found.design).cwiseQuotient(sigma), used, {});
     const Explained now = explained_by(p, found, used, {}, sigma);
@@ -194,9 +206,9 @@ std::optional<MistakenTable> mistaken_table(const Prepared& p, const SearchResul
     const bool usual =
         std::all_of(sizes.begin(), sizes.end(), [](double size) { return size < rules::enormous; });
     if (usual && now.left < to_the_noise && before < absurd) return std::nullopt;
-    const auto best = best_slip(p.replay.setup(), p.table);
+    const auto best = best_slip(p.replay.setup(), p.table, found.noise);
     if (!best) return wrong_size(p, now.left);
-    const auto right = explained_when_right(*best, p);
+    const auto right = explained_when_right(*best, p, found.noise);
     if (!right) return std::nullopt;
     // Two models of the same readings, each with its own noise: by the logarithm of what they
     // leave, and by the parameters that one has more. Poses and arcs tell independently.
@@ -204,13 +216,16 @@ std::optional<MistakenTable> mistaken_table(const Prepared& p, const SearchResul
     const double right_left = std::max(1.0, right->left);
     const double evidence = blocks * std::log(std::max(1.0, now.left) / right_left) +
                             0.5 * (now.columns - right->columns) * std::log(std::max(2.0, blocks));
-    if (evidence < 0.0) return std::nullopt;  // beforehand a table is rarely mistaken
-    return MistakenTable{sentence(*best), evidence > rules::plain_evidence};
+    // Beforehand a table is rarely mistaken; a tilt and an exchange of columns look alike.
+    const double least = best->slip.of_unit ? 0.0 : -std::log(rules::mistaken_odds);
+    if (evidence < least) return std::nullopt;
+    const bool certain = evidence > rules::plain_evidence;
+    return MistakenTable{certain ? sentence(*best) : doubt(*best), certain};
 }
 
 std::optional<MistakenTable> mistaken_table(const setup::Setup& setup,
                                             const records::ReadingTable& table) {
-    const auto best = best_slip(setup, table);
+    const auto best = best_slip(setup, table, 1.0);
     if (!best) return std::nullopt;
     return MistakenTable{sentence(*best), true};
 }

@@ -1,4 +1,5 @@
-// A table whose columns do not hold what they say: exchanged, turned in sign, in another unit.
+// A table whose columns do not hold what they say: exchanged, turned in sign, in another unit
+// (mistaken_table.cpp).
 #pragma once
 
 #include <optional>
@@ -17,6 +18,7 @@ struct MistakenTable {
 struct SearchResult {
     Design& design;
     const Model& model;
+    double noise = 1.0;  ///< expected of the readings, in sigma: not 1 where neighbours tell it
 };
 
 /// The simple change of a table (two columns exchanged, a sign turned, mm for inches, ..) that

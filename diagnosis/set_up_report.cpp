@@ -5,6 +5,7 @@
 #include "diagnosis/prepare/usual_zero.h"
 #include "identification/index_errors.h"
 #include "identification/set_up_words.h"
+#include "identification/time_constants.h"
 
 namespace trunnion::diagnosis {
 namespace {
@@ -42,8 +43,9 @@ void describe_set_up(const Outcome& f, const Solution& solution, Diagnosis& d) {
         d.set_up.push_back(std::move(p));
     }
     d.set_up_words = identification::set_up_words(d.setup, d.set_up);
-    for (std::string& sentence : identification::index_words(d.setup))
-        d.set_up_words.push_back(std::move(sentence));
+    for (auto& words :
+         {identification::index_words(d.setup), identification::time_constant_words(d.setup)})
+        d.set_up_words.insert(d.set_up_words.end(), words.begin(), words.end());
     for (identification::FitParameter& p : zero_scatter_of(f)) d.set_up.push_back(std::move(p));
 }
 

@@ -56,7 +56,7 @@ void add_values(const records::ReadingTable& table, std::vector<TableSlip>& list
         const auto add_unit = [&](const char* unit, double factor) {
             list.push_back(
                 {fmt::format("the values of device {} seem to be in {}, not in mm", name, unit),
-                 scaled(device, factor), factor, device});
+                 scaled(device, factor), factor, device, true});
         };
         add_unit("inches", mm_per_inch);
         add_unit("m", 1000.0);
@@ -72,7 +72,8 @@ std::string column_of(const records::ReadingTable& table, Axis axis) {
 
 TableSlip scaled_axis(std::string words, Axis axis, double factor) {
     return {std::move(words),
-            [axis, factor](records::Reading& row) { row.commanded[axis] *= factor; }};
+            [axis, factor](records::Reading& row) { row.commanded[axis] *= factor; }, 1.0,
+            records::Device::none, factor != -1.0};
 }
 
 void add_positions(const records::ReadingTable& table, std::vector<TableSlip>& list) {
@@ -100,7 +101,8 @@ void add_positions(const records::ReadingTable& table, std::vector<TableSlip>& l
     list.push_back({"the positions of the linear axes seem to be in inches, not in mm",
                     [linear](records::Reading& row) {
                         for (const Axis axis : linear) row.commanded[axis] *= mm_per_inch;
-                    }});
+                    },
+                    1.0, records::Device::none, true});
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ struct TableSlip {
     std::function<void(records::Reading&)> undo;
     double factor = 1.0;  ///< by which undoing it multiplies the values ..
     records::Device device = records::Device::none;  ///< .. of this device
+    bool of_unit = false;  ///< values or positions in another unit: a factor that no machine has
 };
 
 /// The slips that this table allows, each by itself.

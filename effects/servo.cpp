@@ -1,7 +1,10 @@
 // Dynamic errors of the drives: the response of each position loop to its commanded motion, order
 // by order. A loop of first order with the time constant T lags by T, T^2 and T^3 (the error
 // coefficients of control engineering); one of second order has others. Odd orders are a delay,
-// even ones make circles smaller or larger.
+// even ones make circles smaller or larger. With the time constant of the drive in the setup the
+// derivatives are those of the motion behind low-passes (records/smoothed_motion.h): the orders
+// stay what they are, and the response is that of a loop at any speed. Without it they are a
+// series, true while the motion changes little within the delay.
 #include "effects/models.h"
 
 namespace trunnion::effects {
@@ -38,7 +41,8 @@ Effect servo_mismatch(const kinematics::Chain& chain) {
                  "the error",
         single ? "raise the loop gain, or switch on the feed-forward"
                : "set the loop gains of all interpolating axes alike",
-        "position - tau_s * velocity - lag3_s3 * jerk, each axis its own",
+        "position - tau_s * velocity - lag3_s3 * jerk, each axis its own; of the motion behind "
+        "time_constant_s of the axis, if the setup tells it",
         {},
         {},
         SeenBy::any_encoder};
@@ -47,9 +51,12 @@ Effect servo_mismatch(const kinematics::Chain& chain) {
     effect.add = [axes = axes_of(chain)](const AxisSample& sample, const emulator::Contact&,
                                          std::span<const double> value,
                                          kinematics::Perturbation& out) {
-        for (std::size_t j = 0; j < axes.size(); ++j)
-            out.axis[axes[j]] -=
-                value[j] * sample.velocity[axes[j]] + value[axes.size() + j] * sample.jerk[axes[j]];
+        for (std::size_t j = 0; j < axes.size(); ++j) {
+            const Axis axis = axes[j];
+            out.axis[axis] -=
+                value[j] * (sample.velocity[axis] + sample.smooth_velocity[axis]) +
+                value[axes.size() + j] * (sample.jerk[axis] + sample.smooth_jerk[axis]);
+        }
     };
     return effect;
 }
@@ -61,8 +68,7 @@ Effect servo_contour(const kinematics::Chain& chain) {
         "limited bandwidth of the position loop, acceleration filters",
         "raise loop gain or feed-forward, or lower the feed on tight curves",
         "position + lag2_s2 * acceleration, each axis its own; lag2_s2 without an axis is that of "
-        "all "
-        "linear axes",
+        "all linear axes; of the motion behind time_constant_s of the axis, if the setup tells it",
         {},
         {},
         SeenBy::any_encoder};
@@ -73,7 +79,8 @@ Effect servo_contour(const kinematics::Chain& chain) {
                                          std::span<const double> value,
                                          kinematics::Perturbation& out) {
         for (std::size_t j = 0; j < axes.size(); ++j)
-            out.axis[axes[j]] += value[j] * sample.acceleration[axes[j]];
+            out.axis[axes[j]] +=
+                value[j] * (sample.acceleration[axes[j]] + sample.smooth_acceleration[axes[j]]);
     };
     return effect;
 }

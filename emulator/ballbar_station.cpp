@@ -144,7 +144,7 @@ void BallbarStation::note_out_of_range(std::size_t row, double value_mm, const s
 void BallbarStation::read_pass(const Observer& observer, ReadingLog& log,
                                const std::vector<double>& noise_mm) {
     const std::span<records::Reading> rows = log.pass();
-    const std::vector<AxisSample> samples = log.pass_samples();
+    const std::vector<AxisSample> samples = log.pass_samples(setup_.time_constant_s);
     for (std::size_t k = 0; k < rows.size(); ++k) {
         if (rows[k].device != records::Device::ballbar) continue;
         const DeviceRow ready = device_row(observer, rows[k], samples[k]);

@@ -91,9 +91,10 @@ std::span<records::Reading> ReadingLog::pass() {
     return std::span(table_.rows).subspan(pass_begin());
 }
 
-std::vector<AxisSample> ReadingLog::pass_samples() const {
+std::vector<AxisSample> ReadingLog::pass_samples(const TimeConstants& constants) const {
     const auto rows = std::span(table_.rows).subspan(stretch_);
-    std::vector<AxisSample> all = records::samples_of(rows, table_.axes, before_stretch_);
+    std::vector<AxisSample> all =
+        records::samples_of(rows, table_.axes, before_stretch_, {}, constants);
     all.erase(all.begin(), all.begin() + static_cast<long>(pass_begin() - stretch_));
     return all;
 }

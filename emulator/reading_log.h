@@ -33,7 +33,7 @@ class ReadingLog {
 
     /// Rows of the current test at the end of the table, and their samples.
     std::span<records::Reading> pass();
-    std::vector<AxisSample> pass_samples() const;
+    std::vector<AxisSample> pass_samples(const TimeConstants& constants) const;
 
     const std::string& test() const { return test_; }
     std::size_t size() const { return table_.rows.size(); }

@@ -71,7 +71,7 @@ DeviceRow device_row(const Observer& observer, const records::Reading& row,
 
 Replay::Replay(const setup::Setup& setup, const records::ReadingTable& table) : setup_(setup) {
     check_axes(setup, table);
-    samples_ = records::samples_of(table);  // of all rows at first
+    samples_ = records::samples_of(table, setup.time_constant_s);  // of all rows at first
     list_sessions(table);
     const int touches = touches_of(table);
     contacts_.reserve(session_.size());

@@ -48,12 +48,18 @@ using AxisSides = std::array<signed char, axis_count>;
 /// The believed positioning function under which a motion was commanded: column `mode` of readings.
 enum class PositioningMode : unsigned char { none, dpp, rtdfo, rtcp, tw };
 
+/// Time constant of the drive of each axis, s; 0: none is known.
+using TimeConstants = std::array<double, axis_count>;
+
 /// Axis positions with everything that an effect may depend on.
 struct AxisSample {
     AxisPositions position;      ///< commanded machine coordinates, mm and rad
     AxisPositions velocity;      ///< mm/s and rad/s, 0 for an axis at rest
     AxisPositions acceleration;  ///< mm/s^2 and rad/s^2, commanded
     AxisPositions jerk;          ///< mm/s^3 and rad/s^3, commanded
+    /// What the time constants of the drives add to velocity, acceleration and jerk
+    /// (records/smoothed_motion.h); 0 without them.
+    AxisPositions smooth_velocity, smooth_acceleration, smooth_jerk;
     AxisSides travel{};  ///< side from which each axis arrived; 0: at a reversal, or unknown
     std::array<bool, axis_count> side_unknown{};      ///< the side is not known; `travel` is
                                                       ///< assumed

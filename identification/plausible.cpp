@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/alarm.h"
@@ -32,15 +33,36 @@ void tell_absurd(BaseModel& model, bool meant, const std::string& what, const So
     model.notes.push_back(where.program + ": " + message + "; accepted");
 }
 
+/// The largest speed of an axis until now, less what even the slowest loop has caught up since: an
+/// axis that stops after a fast move lags on.
+class RecentSpeed {
+  public:
+    double after(Axis axis, const AxisSample& sample) {
+        Last& last = last_[index_of(axis)];
+        const double since_s = std::max(0.0, sample.time_s - last.time_s);
+        last.speed = std::max(std::abs(sample.velocity[axis]),
+                              last.speed * std::exp(-since_s / longest_lag_s));
+        last.time_s = sample.time_s;
+        return last.speed;
+    }
+
+  private:
+    struct Last {
+        double speed = 0.0, time_s = 0.0;
+    };
+    std::array<Last, axis_count> last_{};
+};
+
 /// Sizes of the residuals; those of a servo log as far as no lag of the axis explains them, beside
 /// the fitted zero of its encoder or none, because a lag at mostly one speed looks like a zero.
 Eigen::VectorXd without_lag(const BaseModel& model, const emulator::Replay& replay) {
     Eigen::VectorXd size = model.residual_mm.cwiseAbs();
+    RecentSpeed speed;
     for (Eigen::Index i = 0; i < size.size(); ++i) {
         const auto row = static_cast<std::size_t>(i);
         const emulator::Contact& contact = replay.contact(row);
         if (contact.device != records::Device::axis) continue;
-        const double lag_mm = longest_lag_s * std::abs(replay.sample(row).velocity[contact.axis]);
+        const double lag_mm = longest_lag_s * speed.after(contact.axis, replay.sample(row));
         const std::size_t k = index_of(contact.axis);
         const double zero = model.setup.encoder_zero[k] - replay.setup().encoder_zero[k];
         const double least = std::min(size(i), std::abs(model.residual_mm(i) + zero));

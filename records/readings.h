@@ -43,6 +43,9 @@ struct Reading {
     std::optional<double> sigma_mm;
     std::optional<double> velocity_mm_s,
         acceleration_mm_s2;  ///< commanded, of the axis of an `axis` row
+    /// Of a thinned servo log: velocity, acceleration and jerk of its axis behind the time constant
+    /// of its drive (records/smoothed_motion.h). Not in files.
+    std::optional<Vector3> smoothing;
     std::string session;     ///< day or set-up; a change starts a new session
     std::string instrument;  ///< name of an [[instrument]]; empty: the only one, or none
     std::string source;      ///< file:line of an imported value

@@ -7,6 +7,8 @@
 #include <optional>
 #include <string_view>
 
+#include "records/smoothed_motion.h"
+
 namespace trunnion::records {
 namespace {
 
@@ -53,6 +55,22 @@ class Pass {
         }
     }
 
+    /// Adds what the time constant of the axis's drive makes of the motion.
+    void smooth(Axis axis, double time_constant_s, std::vector<AxisSample>& samples) const {
+        const CommandedPath path = commanded_path(all_, rows_, axis, names_);
+        const std::vector<Vector3> smoothed = smoothed_motion(path, time_constant_s);
+        for (std::size_t k = 0; k < rows_.size(); ++k) {
+            if (!is_continuous(row(k).device)) continue;
+            AxisSample& sample = samples[rows_[k]];
+            const Vector3 own(sample.velocity[axis], sample.acceleration[axis], sample.jerk[axis]);
+            const bool told = row(k).smoothing && names_.find(row(k).feature) == axis;
+            const Vector3 more = (told ? *row(k).smoothing : smoothed[path.at[k]]) - own;
+            sample.smooth_velocity[axis] = more.x();
+            sample.smooth_acceleration[axis] = more.y();
+            sample.smooth_jerk[axis] = more.z();
+        }
+    }
+
   private:
     const Reading& row(std::size_t k) const { return all_[rows_[k]]; }
     double q(std::size_t k, Axis axis) const { return row(k).commanded[axis]; }
@@ -81,36 +99,6 @@ class Pass {
         if (sign != 0 || moves) sample.travel[index_of(axis)] = sign;
         if (sign == 0) return;
         sample.velocity[axis] = moved / time_s;
-        if (row(k).device == Device::axis)
-            if (const auto at_end = velocity_at_end(k, around, axis))
-                sample.velocity[axis] = *at_end;
-    }
-
-    /// Of the first or last row of a servo log: the parabola through the velocities of the next
-    /// three rows. The difference to one side is the velocity half a step away; with a lag of 10
-    /// ms, 2 m/s^2 and rows of 10 ms that is 0.1 mm.
-    std::optional<double> velocity_at_end(std::size_t k, const Neighbours& around,
-                                          Axis axis) const {
-        const bool first = row(around.before).time_s == row(k).time_s;
-        const bool last = row(around.after).time_s == row(k).time_s;
-        if (first == last) return std::nullopt;
-        std::array<double, 3> time_s{}, velocity{};
-        std::size_t at = k;
-        for (std::size_t j = 0; j < time_s.size(); ++j) {
-            at = first ? neighbours(at).after : neighbours(at).before;
-            const auto [before, after] = neighbours(at);
-            if (row(before).time_s == row(at).time_s || row(after).time_s == row(at).time_s)
-                return std::nullopt;
-            time_s[j] = row(at).time_s - row(k).time_s;
-            velocity[j] =
-                (q(after, axis) - q(before, axis)) / (row(after).time_s - row(before).time_s);
-        }
-        double sum = 0.0;
-        for (std::size_t j = 0; j < time_s.size(); ++j) {
-            const double s = time_s[(j + 1) % 3], t = time_s[(j + 2) % 3];
-            sum += velocity[j] * s * t / ((time_s[j] - s) * (time_s[j] - t));
-        }
-        return sum;
     }
 
     using Moments = std::array<std::size_t, 5>;
@@ -312,30 +300,54 @@ bool way_unknown(const Reading& from, const Reading& to) {
 }
 
 std::vector<AxisSample> samples_of(std::span<const Reading> rows, const std::vector<Axis>& axes,
-                                   TravelHistory history, const AxisNames& names) {
+                                   TravelHistory history, const AxisNames& names,
+                                   const TimeConstants& constants) {
     std::vector<AxisSample> samples = Walk(rows, history).samples();
     for (AxisSample& sample : samples)
         for (const Axis axis : axes)
             sample.side_unknown[index_of(axis)] = sample.travel[index_of(axis)] == 0;
-    for (const Rows& list : rows_of_passes(rows)) Pass(rows, list, names).fill(axes, samples);
+    for (const Rows& list : rows_of_passes(rows)) {
+        const Pass pass(rows, list, names);
+        pass.fill(axes, samples);
+        for (const Axis axis : axes)
+            if (const double seconds = constants[index_of(axis)]; seconds > 0.0)
+                pass.smooth(axis, seconds, samples);
+    }
     for (std::size_t k = 0; k < rows.size(); ++k)
         for (const Axis axis : axes)
             if (samples[k].velocity[axis] != 0.0) samples[k].side_unknown[index_of(axis)] = false;
     return samples;
 }
 
-std::vector<AxisSample> samples_of(const ReadingTable& table) {
+std::vector<AxisSample> samples_of(const ReadingTable& table, const TimeConstants& constants) {
     std::vector<AxisSample> samples;
     const std::span<const Reading> rows(table.rows);
     for (std::size_t begin = 0; begin < rows.size();) {
         const std::size_t end = session_end(table.rows, begin);
         const TravelHistory history(sides_before(table, begin), rows_rounding, table.names);
-        auto part = samples_of(rows.subspan(begin, end - begin), table.axes, history, table.names);
+        auto part = samples_of(rows.subspan(begin, end - begin), table.axes, history, table.names,
+                               constants);
         if (end - begin == rows.size()) return part;
         samples.insert(samples.end(), part.begin(), part.end());
         begin = end;
     }
     return samples;
+}
+
+std::vector<CommandedPath> logged_paths(const ReadingTable& table, Axis axis) {
+    std::vector<CommandedPath> paths;
+    const std::span<const Reading> rows(table.rows);
+    for (std::size_t begin = 0, end = 0; begin < rows.size(); begin = end) {
+        end = session_end(table.rows, begin);
+        for (const Rows& pass : rows_of_passes(rows.subspan(begin, end - begin))) {
+            Rows of_axis;
+            paths.push_back(
+                commanded_path(rows.subspan(begin, end - begin), pass, axis, table.names));
+            for (const std::size_t i : pass) of_axis.push_back(begin + i);
+            paths.back().rows = std::move(of_axis);
+        }
+    }
+    return paths;
 }
 
 }  // namespace trunnion::records

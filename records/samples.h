@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "records/readings.h"
+#include "records/smoothed_motion.h"
 #include "records/travel.h"
 
 namespace trunnion::records {
@@ -17,10 +17,10 @@ bool is_continuous(Device device);
 ///                   kept while the axis is at rest; before its first motion from `# side` (first
 ///                   session), else `side_unknown` and 0
 ///   continuous rows velocity (q[i+1] - q[i-1]) / (t[i+1] - t[i-1]) within the test, one-sided at
-///                   its ends, those of each repetition after another test (rows of `axis`: the
-///                   parabola through the velocities of the next three); travel is its sign, 0 at
-///                   an exact reversal point
+///                   its ends, those of each repetition after another test; travel is its sign, 0
+///                   at an exact reversal point
 ///   acceleration    cubic through five rows of the test, continuous rows only; the same for jerk
+///   smooth_..       what the time constants of the drives add to these (smoothed_motion.h)
 ///   since_reversal  distance from the reversal point (between dense rows: the vertex of the
 ///                   parabola through three); restarts at a row of another test that directly
 ///                   follows
@@ -28,10 +28,14 @@ bool is_continuous(Device device);
 ///                   it
 ///                   exceeds `no_reversal_seen`
 ///   path_mm         path length of X Y Z since the first row of the test
-std::vector<AxisSample> samples_of(const ReadingTable& table);
+std::vector<AxisSample> samples_of(const ReadingTable& table, const TimeConstants& constants = {});
 /// The same for rows of one session that continue `history`.
 std::vector<AxisSample> samples_of(std::span<const Reading> rows, const std::vector<Axis>& axes,
-                                   TravelHistory history, const AxisNames& names = {});
+                                   TravelHistory history, const AxisNames& names = {},
+                                   const TimeConstants& constants = {});
+
+/// The commanded motion of an axis in every pass of the table, with the rows of the pass.
+std::vector<CommandedPath> logged_paths(const ReadingTable& table, Axis axis);
 
 /// True when the path from one row to the next is unknown.
 bool way_unknown(const Reading& from, const Reading& to);

@@ -162,6 +162,17 @@ std::string explained_words(const diagnosis::Diagnosis& d) {
                 : "; these readings cannot tell " + of_rivals + " from its rivals, see below.");
 }
 
+/// Of a cause that is one harmonic of a turn, told by its cosine and sine alone: its order.
+std::optional<std::string> single_order(const diagnosis::Cause& cause) {
+    if (cause.parameters.size() != 2) return std::nullopt;
+    const std::string &cosine = cause.parameters[0].name, &sine = cause.parameters[1].name;
+    const std::size_t end = cosine.find('_');
+    if (!cosine.starts_with("cos") || end == 3 || end == std::string::npos ||
+        sine != "sin" + cosine.substr(3))
+        return std::nullopt;
+    return cosine.substr(3, end - 3);
+}
+
 }  // namespace
 
 bool is_claimed(const diagnosis::Cause& cause) {
@@ -177,6 +188,7 @@ std::string cause_name(const diagnosis::Diagnosis& d, const diagnosis::Cause& ca
         return other.effect == cause.effect && other.since == cause.since;
     });
     const std::string since = cause.since.empty() ? "" : " since " + cause.since;
+    if (const auto order = single_order(cause)) return cause.effect + " of order " + *order + since;
     if (alike < 2 || cause.points.empty()) return cause.effect + since;
     const bool other_table = std::any_of(d.causes.begin(), d.causes.end(), [&](const auto& other) {
         return &other != &cause && other.effect == cause.effect && !other.points.empty();

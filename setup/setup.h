@@ -146,6 +146,9 @@ struct Setup {
     /// encoder_zero_mm, encoder_zero_rad: what the axis's own encoder reads, actual - commanded,
     /// where the axis stands as commanded; mm or rad. A fit of `axis` rows finds it.
     std::array<double, axis_count> encoder_zero{};
+    /// time_constant_s of the axis: its drive follows the command as behind a low-pass of first
+    /// order (effects/servo.cpp). A diagnosis of `axis` rows finds it.
+    TimeConstants time_constant_s{};
     /// Backlash that depends on the place: backlash_mm, backlash_rad given as a table. The gap at a
     /// position, mm or rad, with the sign of the effect X.backlash, to which it adds.
     std::array<kinematics::ErrorCurve, axis_count> gap{};

@@ -136,6 +136,8 @@ std::string machine_text(const Setup& setup) {
         if (const double zero = setup.encoder_zero[index_of(axis.axis)]; zero != 0.0)
             out += (axis.rotary ? "encoder_zero_rad = " : "encoder_zero_mm = ") + shortest(zero) +
                    '\n';
+        if (const double seconds = setup.time_constant_s[index_of(axis.axis)]; seconds != 0.0)
+            out += "time_constant_s = " + shortest(seconds) + '\n';
         if (const kinematics::ErrorCurve& gap = setup.gap[index_of(axis.axis)]; !gap.is_zero())
             out += (axis.rotary ? "backlash_rad = " : "backlash_mm = ") +
                    curve_text(gap, axis.rotary) + '\n';

@@ -121,6 +121,15 @@ double read_encoder_zero(const TomlFile& file, const TomlValue& table, bool rota
     return file.number(*zero);
 }
 
+double read_time_constant(const TomlFile& file, const TomlValue& table) {
+    const TomlValue* constant = table.find("time_constant_s");
+    if (!constant) return 0.0;
+    const double seconds = file.number(*constant);
+    if (seconds < 0.0 || seconds > 10.0)
+        file.fail(*constant, "time_constant_s is from 0 to 10 seconds");
+    return seconds;
+}
+
 /// Sides from which the axes arrived before their first move; default: travelling +.
 void read_sides(const TomlFile& file, const TomlValue& sides, Setup& setup) {
     for (const auto& [name, value] : file.table(sides).entries) {
@@ -155,8 +164,9 @@ bool read_auxiliary_axis(const TomlFile& file, const std::string& name, const To
                          Setup& setup) {
     for (kinematics::AxisGeometry& axis : setup.auxiliary) {
         if (axis.name != name) continue;
-        for (const char* key : {"direction", "point_mm", "encoder", "encoder_zero_mm",
-                                "encoder_zero_rad", "backlash_mm", "backlash_rad"})
+        for (const char* key :
+             {"direction", "point_mm", "encoder", "encoder_zero_mm", "encoder_zero_rad",
+              "time_constant_s", "backlash_mm", "backlash_rad"})
             if (const TomlValue* value = file.table(table).find(key))
                 file.fail(*value, "axis " + name + " is auxiliary: it has travel and speeds only");
         read_kind(file, table, axis);
@@ -177,6 +187,7 @@ void read_axes(const TomlFile& file, const TomlValue& axes, Setup& setup) {
         read_axis(file, file.table(value), *axis, setup);
         setup.scale_encoder[k] = read_scale_encoder(file, value);
         setup.encoder_zero[k] = read_encoder_zero(file, value, axis->rotary);
+        setup.time_constant_s[k] = read_time_constant(file, value);
     }
 }
 

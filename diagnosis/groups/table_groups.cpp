@@ -38,8 +38,10 @@ constexpr std::size_t most_targets = 128;  ///< of a table with a value for each
 constexpr double whole_turn_rad = 5.0;     ///< a wider range counts as a whole turn
 constexpr double least_range_mm = 1.0, least_range_rad = 0.05;
 constexpr int last_order = 24;
-constexpr int last_single_order = 8;
-constexpr double soft_orders[] = {4.0, 12.0};  ///< harmonics decrease beyond these
+/// Of an angle sensor, read at many places: interpolation errors stand at multiples of its lines.
+constexpr int last_order_of_sensor = 120;
+constexpr int last_single_order = 9;  ///< the next ones are periods of R.cyclic
+constexpr double soft_orders[] = {4.0, 12.0, 36.0, 108.0};  ///< harmonics decrease beyond these
 
 std::vector<double> places_of(const Prepared& p, Axis axis) {
     std::vector<double> places;
@@ -113,19 +115,37 @@ std::vector<Shape> shapes_at_knots(const Family& family, const std::vector<doubl
     return shapes;
 }
 
-/// All harmonics, decreasing, or a single one of a low order: poles of a resolver, lobes of a
-/// bearing. Half of the prior for each kind.
-std::vector<Shape> shapes_of_turn(const TableForm& table) {
+bool is_angle_sensor(const Prepared& p) {
+    for (std::size_t i = 0; i < p.replay.size(); ++i)
+        if (p.replay.contact(i).device != records::Device::angle) return false;
+    return true;
+}
+
+/// Harmonics of the table from its first one on, as many as `sizes`, of these relative sizes.
+Eigen::MatrixXd harmonics_of(const TableForm& table, const std::vector<double>& sizes) {
+    const auto columns = 2 * static_cast<Eigen::Index>(sizes.size());
+    Eigen::MatrixXd shape = Eigen::MatrixXd::Zero(2 * table.orders, columns);
+    for (Eigen::Index c = 0; c < columns; ++c) shape(c, c) = sizes[static_cast<std::size_t>(c / 2)];
+    return shape * std::sqrt(2.0) / shape.norm();
+}
+
+/// All harmonics, decreasing beyond some order; of an angle sensor also the low ones alone, alike:
+/// at few places all of them follow noise; or a single one of a low order: poles of a resolver,
+/// lobes of a bearing. Half of the prior for each kind.
+std::vector<Shape> shapes_of_turn(const Prepared& p, const TableForm& table) {
     std::vector<Shape> shapes;
+    const int last = table.first_order + table.orders - 1;
     for (const double soft : soft_orders) {
-        Eigen::VectorXd size(2 * table.orders);
-        for (int n = 0; n < table.orders; ++n)
-            size.segment(2 * n, 2).setConstant(1.0 /
-                                               (1.0 + std::pow((table.first_order + n) / soft, 2)));
-        shapes.push_back({Eigen::MatrixXd((size * std::sqrt(2.0) / size.norm()).asDiagonal()),
-                          -std::log(2.0 * std::size(soft_orders))});
+        if (soft > soft_orders[1] && soft > last) continue;
+        std::vector<double> sizes;
+        for (int n = table.first_order; n <= last; ++n)
+            sizes.push_back(1.0 / (1.0 + std::pow(n / soft, 2)));
+        shapes.push_back({harmonics_of(table, sizes)});
     }
     const int singles = std::min(last_single_order - table.first_order + 1, table.orders);
+    if (singles < table.orders && is_angle_sensor(p))
+        shapes.push_back({harmonics_of(table, std::vector<double>(singles, 1.0))});
+    for (Shape& s : shapes) s.log_prior = -std::log(2.0 * static_cast<double>(shapes.size()));
     for (int n = 0; n < singles; ++n)
         shapes.push_back(
             {Eigen::MatrixXd::Identity(2 * table.orders, 2 * table.orders).middleCols(2 * n, 2),
@@ -182,13 +202,24 @@ int last_on_grid(const std::vector<double>& places) {
     return std::max(1, static_cast<int>(std::floor(pi / step + even)));
 }
 
+/// The highest harmonic that the readings of an angle sensor tell: half as many as the places of
+/// its turn, even or not. Readings of other devices are rarer than those, and their tables
+/// smoother.
+int last_of_sensor(std::vector<double> places) {
+    for (double& q : places) q -= 2.0 * pi * std::floor(q / (2.0 * pi) + 1e-9);
+    const std::vector<double> turn = estimation::knots_of(places, 2 * last_order_of_sensor + 2);
+    return std::min(last_order_of_sensor, (static_cast<int>(turn.size()) - 1) / 2);
+}
+
 TableForm form_of(const Prepared& p, const Family& family, const kinematics::AxisGeometry& axis) {
     TableForm table{family.motion, axis, directions_of(family, axis), {}, 0, 0};
     const std::vector<double> places = places_of(p, axis.axis);
     if (is_whole_turn(axis, places)) {
         table.first_order = family.owned + 1;
         const int last = family.shapes >= 24 ? last_order : last_order / 2;
-        table.orders = std::min(last, last_on_grid(places)) - family.owned;
+        const bool sensor = family.motion == EffectKind::positioning && is_angle_sensor(p);
+        table.orders =
+            (sensor ? last_of_sensor(places) : std::min(last, last_on_grid(places))) - family.owned;
     } else {
         table.knots = estimation::knots_of(places, family.knots);
         if (family.along && family.motion == EffectKind::positioning)
@@ -210,7 +241,7 @@ std::size_t least_knots(const Family& family) {
 /// with a value of its own at each.
 std::vector<Shape> shapes_of(const Prepared& p, const Family& family, const TableForm& table,
                              const Eigen::MatrixXd& owned) {
-    if (table.knots.empty()) return shapes_of_turn(table);
+    if (table.knots.empty()) return shapes_of_turn(p, table);
     std::vector<Shape> shapes =
         shapes_at_knots(family, table.knots, owned, has_targets(p, family, table));
     if (is_whole_turn(table.axis, table.knots) && !shapes.empty())

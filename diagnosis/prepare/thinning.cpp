@@ -117,14 +117,20 @@ class Thinner {
 
 /// Tells the commanded motion of the rows of a servo log: between fewer rows its differences are
 /// others.
-records::ReadingTable with_told_motion(records::ReadingTable table) {
-    const std::vector<AxisSample> samples = records::samples_of(table);
+records::ReadingTable with_told_motion(records::ReadingTable table,
+                                       const TimeConstants& constants) {
+    const std::vector<AxisSample> samples = records::samples_of(table, constants);
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
         records::Reading& row = table.rows[i];
         const auto axis = table.names.find(row.feature);
         if (row.device != Device::axis || !axis) continue;
         if (!row.velocity_mm_s) row.velocity_mm_s = samples[i].velocity[*axis];
         if (!row.acceleration_mm_s2) row.acceleration_mm_s2 = samples[i].acceleration[*axis];
+        const AxisSample& s = samples[i];
+        if (constants[index_of(*axis)] > 0.0)
+            row.smoothing = Vector3(s.velocity[*axis] + s.smooth_velocity[*axis],
+                                    s.acceleration[*axis] + s.smooth_acceleration[*axis],
+                                    s.jerk[*axis] + s.smooth_jerk[*axis]);
     }
     return table;
 }
@@ -136,7 +142,8 @@ bool has_log(const records::ReadingTable& table) {
 
 }  // namespace
 
-std::optional<records::ReadingTable> thinned(const records::ReadingTable& table, std::size_t most) {
+std::optional<records::ReadingTable> thinned(const records::ReadingTable& table, std::size_t most,
+                                             const TimeConstants& constants) {
     std::size_t all = 0;
     for (const records::Reading& row : table.rows) {
         if (row.device == Device::none) continue;
@@ -154,7 +161,7 @@ std::optional<records::ReadingTable> thinned(const records::ReadingTable& table,
     fewer.names = table.names;
     fewer.optional_columns = table.optional_columns;
     const Steps steps = steps_for(table, most);
-    fewer.rows = has_log(table) ? Thinner(with_told_motion(table), steps).rows()
+    fewer.rows = has_log(table) ? Thinner(with_told_motion(table, constants), steps).rows()
                                 : Thinner(table, steps).rows();
     return fewer;
 }

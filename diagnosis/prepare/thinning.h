@@ -13,9 +13,11 @@ namespace trunnion::diagnosis {
 /// streams (ballbar, servo log), and of more places than that: of passes one row of each stretch of
 /// n, at varying positions so that no period coincides with the selection; the first row of each
 /// test (its zero refers to it), and at least 120 rows of each pass; rows of a servo log are told
-/// the commanded speed and acceleration of the whole log. Of poses every n-th completely; the pose
-/// before it is kept as rows without device, because it defines the side of approach. The
-/// uncertainty of parameters grows by the square root of n; they are not biased.
-std::optional<records::ReadingTable> thinned(const records::ReadingTable& table, std::size_t most);
+/// the commanded motion of the whole log, behind the time `constants` of the drives too.
+/// Of poses every n-th completely; the pose before it is kept as rows without device, because it
+/// defines the side of approach. The uncertainty of parameters grows by the square root of n; they
+/// are not biased.
+std::optional<records::ReadingTable> thinned(const records::ReadingTable& table, std::size_t most,
+                                             const TimeConstants& constants = {});
 
 }  // namespace trunnion::diagnosis

@@ -123,6 +123,36 @@ TEST_CASE("rows of a servo log keep the speed of the whole log", "[diagnosis]") 
     }
 }
 
+TEST_CASE("rows of a thinned log answer to the motion of the whole log", "[diagnosis]") {
+    records::ReadingTable table;
+    table.path = "log.csv";
+    table.axes = {Axis::X, Axis::Y, Axis::Z};
+    for (int k = 0; k < 6000; ++k) {
+        records::Reading row;
+        row.index = k;
+        row.time_s = 0.005 * k;
+        row.test = "log";
+        row.device = records::Device::axis;
+        row.feature = "X";
+        row.commanded[Axis::X] = 40.0 * std::sin(6.28 * row.time_s);
+        row.value_mm = 0.0;
+        table.rows.push_back(row);
+    }
+    TimeConstants constants{};
+    constants[index_of(Axis::X)] = 0.02;
+    const auto all = records::samples_of(table, constants);
+    const auto fewer = diagnosis::thinned(table, 2000, constants);
+    REQUIRE(fewer);
+    const auto kept = records::samples_of(*fewer, constants);
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+        const AxisSample& whole = all[static_cast<std::size_t>(fewer->rows[i].index)];
+        CHECK(kept[i].velocity[Axis::X] + kept[i].smooth_velocity[Axis::X] ==
+              Approx(whole.velocity[Axis::X] + whole.smooth_velocity[Axis::X]).margin(1e-9));
+        CHECK(kept[i].jerk[Axis::X] + kept[i].smooth_jerk[Axis::X] ==
+              Approx(whole.jerk[Axis::X] + whole.smooth_jerk[Axis::X]).margin(1e-6));
+    }
+}
+
 TEST_CASE("a device row without a value is not thinned away", "[diagnosis]") {
     const setup::Setup setup = campaign::bc_setup();
     records::ReadingTable table = campaign::empty_table(setup);

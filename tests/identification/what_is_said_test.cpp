@@ -142,6 +142,35 @@ TEST_CASE("a following error at speed is plausible in a servo log, as far as a d
     CHECK_THROWS_AS(fit(0.0, 6.0), InputError);
 }
 
+TEST_CASE("an axis that stops after a fast move lags on, and that is plausible",
+          "[identification]") {
+    std::vector<std::string> notes;
+    const setup::Setup setup = setup::parse_setup(
+        "[machine]\nname = \"m\"\nchain = \"w b X t\"\n"
+        "[model]\nnoise_um = { axis = 1 }\n",
+        "s.toml", notes);
+    const double row_s = 0.005, lag_s = 0.04, speed = 120.0;
+    records::ReadingTable log;
+    log.path = "log.csv";
+    log.axes = {Axis::X};
+    double commanded = 0.0, actual = 0.0;
+    for (int k = 0; k < 400; ++k) {  // 0.1 s of motion, 0.1 s of rest, by turns
+        records::Reading row;
+        row.index = k;
+        row.time_s = row_s * k;
+        row.test = "log";
+        row.device = records::Device::axis;
+        row.feature = "X";
+        row.commanded[Axis::X] = commanded;
+        row.value_mm = actual - commanded;
+        log.rows.push_back(row);
+        if (k / 20 % 2 == 0) commanded += speed * row_s;
+        actual += (commanded - actual) * (1.0 - std::exp(-row_s / lag_s));
+    }
+    const emulator::Replay replay(setup, log);
+    CHECK_NOTHROW(identification::fit_base(setup, log, replay, effects::make_catalogue(setup), {}));
+}
+
 TEST_CASE("a fit needs two readings, more readings than unknowns and effects that there are",
           "[identification]") {
     const setup::Setup setup = laser_machine();
