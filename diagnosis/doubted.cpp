@@ -19,10 +19,21 @@ bool is_improbable_ripple(const Outcome& f, const Claim& claim) {
     return nearest.only_rival && nearest.group.kind == GroupKind::periodic;
 }
 
+/// Probability that a claim is there, or a rival that does the same at these readings: which of the
+/// two names the error has does not matter where it is written.
+double probability_of_either(const Outcome& f, const Claim& claim) {
+    const bool rivalled =
+        std::any_of(claim.rival_groups.begin(), claim.rival_groups.end(), [&](std::size_t rival) {
+            const ColumnGroup& group = f.design.group(rival);
+            return is_cause(group.kind) && !group.machine_jump;
+        });
+    return claim.probability * (rivalled ? 2.0 : 1.0);
+}
+
 bool is_claimed(const Outcome& f, std::size_t position, const std::vector<Claim>& claims) {
     const std::string& name = f.design.group(f.model.members[position]).name;
     return std::any_of(claims.begin(), claims.end(), [&](const Claim& claim) {
-        return claim.probability >= rules::claimed &&
+        return probability_of_either(f, claim) >= rules::claimed &&
                (claim.position == position || claim.name == name);
     });
 }

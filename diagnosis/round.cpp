@@ -191,7 +191,8 @@ Model carried_over(const Searched& earlier, Design& design, const Prepared& p,
                 design.group(g).parameters == group.parameters &&
                 design.group(g).shape.rows() == group.shape.rows() &&
                 (group.kind != GroupKind::table ||
-                 (design.group(g).shape.cols() == group.shape.cols() &&
+                 (design.group(g).table.directions == group.table.directions &&
+                  design.group(g).shape.cols() == group.shape.cols() &&
                   design.group(g).shape == group.shape)))
                 at = g;
         if (!at) continue;
@@ -199,6 +200,15 @@ Model carried_over(const Searched& earlier, Design& design, const Prepared& p,
         model.variances.tau.push_back(earlier.model.variances.tau[k]);
     }
     return model;
+}
+
+/// Nobody knows how far the assumed noise is from the true one, but neighbours do: that is what is
+/// expected, and beyond twice their doubt it is no noise.
+void take_neighbours(const NeighbourNoise& told, NoiseBelief& belief) {
+    if (told.variance <= 0.0) return;
+    const double off = 0.5 * std::log(told.variance);
+    belief.most = std::max(belief.most, told.variance * (1.0 + 2.0 * told.doubt));
+    if (std::abs(off) > belief.prior.spread) belief.prior.log_mean = off;
 }
 
 }  // namespace
@@ -224,11 +234,10 @@ NoiseBelief belief_of(const Prepared& p, const Eigen::VectorXd& residual_mm, con
         case NoiseSource::assumed: belief.prior.spread = 0.7; break;
     }
     belief.most = std::exp(2.0 * 2.0 * std::max(0.3, belief.prior.spread));
-    // Nobody knows how far the assumed noise is from the true one, but neighbours do.
     if (belief.model.source == NoiseSource::assumed)
-        belief.most = std::max(belief.most,
-                               variance_of_neighbours(p.replay, round.used,
-                                                      residual_mm.cwiseQuotient(round.sigma_mm)));
+        take_neighbours(
+            noise_of_neighbours(p.replay, round.used, residual_mm.cwiseQuotient(round.sigma_mm)),
+            belief);
     return belief;
 }
 

@@ -1,14 +1,16 @@
 #include "diagnosis/written_setup.h"
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <optional>
 
 #include "diagnosis/doubted.h"
+#include "diagnosis/measured_places.h"
 #include "diagnosis/rules/rules.h"
 #include "diagnosis/search/solution.h"
 #include "diagnosis/set_up_alone.h"
 #include "effects/settings.h"
-#include "estimation/free_form.h"
 #include "estimation/quantiles.h"
 
 namespace trunnion::diagnosis {
@@ -18,7 +20,6 @@ namespace {
 constexpr double most_harm = 1.2;
 constexpr double least_agreement = 1.0;  ///< t statistic of a searched form on left-out paths
 constexpr double least_part = 0.1;       ///< of its contribution that it must save there
-constexpr double on_a_knot = 1e-5;       ///< of the distance to the next one
 
 using TakesMember = std::function<bool(GroupKind, std::size_t group)>;
 
@@ -65,34 +66,6 @@ Eigen::VectorXd residual_of(const Outcome& f, const Model& model, const Folds& f
 bool has_tables(const Outcome& f, const Model& model) {
     return std::any_of(model.members.begin(), model.members.end(),
                        [&](std::size_t m) { return f.design.group(m).kind == GroupKind::table; });
-}
-
-/// True for a table of a laser, autocollimator, tracker or CMM that holds at its positions alone.
-/// These are all the positions that were read, so left-out readings at the same positions confirm
-/// it; it is written for them only.
-bool holds_at_places(const Outcome& f, std::size_t group) {
-    const ColumnGroup& own = f.design.group(group);
-    if (own.kind != GroupKind::table || own.table.knots.empty() ||
-        f.judgement.interpolates[position_of(f, group)])
-        return false;
-    for (std::size_t i = 0; i < f.prepared.replay.size(); ++i) {
-        const emulator::Contact& contact = f.prepared.replay.contact(i);
-        if (contact.device != records::Device::linear && contact.device != records::Device::angle &&
-            contact.device != records::Device::point)
-            return false;
-        const double q = f.prepared.replay.sample(i).position[own.table.axis.axis];
-        const auto [knot, weight] = estimation::place_between(own.table.knots, q);
-        if (std::min(weight, 1.0 - weight) > on_a_knot) return false;
-    }
-    const auto axis = index_of(own.table.axis.axis);
-    const setup::Setup& setup = f.prepared.base.setup;
-    if (own.table.play) return setup.gap[axis].at.empty();
-    return std::all_of(own.table.directions.begin(), own.table.directions.end(),
-                       [&](int direction) {
-                           return setup.machine.errors.axis[axis]
-                               .motion[static_cast<std::size_t>(direction)]
-                               .at.empty();
-                       });
 }
 
 /// True for what was chosen among many forms, so that it fits what other causes leave, too.
@@ -234,23 +207,40 @@ struct Alone {
     double blocks = 0.0, paths = 0.0, noise = 0.0;
 };
 
+/// Parts of the readings that are left out as a whole. Where all passes are over one path, there is
+/// no other one to predict it from: then each pass.
+struct Paths {
+    Folds folds;
+    bool one = false;
+};
+
+Paths paths_of(const Prepared& p) {
+    Paths paths{path_folds(p.blocks, p.replay, p.table.axes)};
+    std::vector<int>& fold = paths.folds.fold;
+    paths.one = std::adjacent_find(fold.begin(), fold.end(), std::not_equal_to<>()) == fold.end();
+    if (paths.one)
+        for (std::size_t k = 0; k < fold.size(); ++k) fold[k] = static_cast<int>(k) % Folds::count;
+    return paths;
+}
+
 /// What was found with tables, and is fitted with or without them, must leave at most half of the
 /// gap on left-out paths, seen on these or within the paths: where the set-up alone misses them by
 /// more than the gap, they say nothing of a gap. Known forms alone do no harm, or are as the model
-/// expects.
-bool holds_elsewhere(const Outcome& f, const Model& model, const Folds& paths, const Alone& alone) {
-    const double after = loss_of(f, model, paths).mean();
+/// expects. A table of one path says nothing of others.
+bool holds_elsewhere(const Outcome& f, const Model& model, const Paths& paths, const Alone& alone) {
+    const double after = loss_of(f, model, paths.folds).mean();
     // What known forms explain without the tables does not rest on these.
     const double own = alone.blocks - loss_of(f, model, f.prepared.folds).mean();
     const bool known_forms =
         !has_tables(f, model) && own >= rules::explained * (alone.blocks - alone.noise);
     if (has_tables(f, f.model) && !known_forms) {
+        if (paths.one) return false;
         const double gap = std::min(alone.blocks, alone.paths) - alone.noise;
         return after - alone.noise <= (1.0 - rules::between_least) * std::max(0.0, gap);
     }
     // Beside what is missing, a form has an uncertainty that excuses anything.
-    return after <= most_harm * alone.paths ||
-           (f.judgement.part >= rules::explained && as_expected(f, model, paths, alone.paths));
+    return after <= most_harm * alone.paths || (f.judgement.part >= rules::explained &&
+                                                as_expected(f, model, paths.folds, alone.paths));
 }
 
 /// True when a model predicts the typical left-out reading no worse: what helps a few readings that
@@ -280,17 +270,17 @@ bool is_confirmed(const BlockLoss& before, const BlockLoss& loss) {
 }
 
 /// Takes the best candidate on left-out readings that holds on left-out paths, if there is one.
-void choose(const Outcome& f, const Folds& paths, Written& w) {
+void choose(const Outcome& f, const Paths& paths, Written& w) {
     const double rank = static_cast<double>(f.design.projection().rank());
     const double noise = f.judgement.floor * (1.0 + rank / std::max(1.0, f.design.rows()));
     const BlockLoss before = loss_of(f, w.model, f.prepared.folds);
-    const Alone alone{before.mean(), loss_of(f, w.model, paths).mean(), noise};
+    const Alone alone{before.mean(), loss_of(f, w.model, paths.folds).mean(), noise};
     const auto left = [&](const Model& m) {
         return residual_of(f, m, f.prepared.folds, Zeros::all);
     };
     const Eigen::VectorXd alone_left = left(w.model);
     double least = alone.blocks;
-    for (auto& [model, found] : candidates_of(f, paths)) {
+    for (auto& [model, found] : candidates_of(f, paths.folds)) {
         const BlockLoss loss = loss_of(f, model, f.prepared.folds);
         if (loss.mean() >= least || !is_confirmed(before, loss)) continue;
         if (!is_good_for_most(f, alone_left, left(model))) continue;
@@ -351,7 +341,7 @@ Written written_setup(const Outcome& f) {
     w.model = {{}, {{}, f.model.variances.nu}, 0.0};
     if (f.judgement.gap && std::max(f.judgement.part, f.judgement.beside_zeros) > 0.0) {
         const Model none = without_causes(f);
-        const Folds paths = path_folds(f.prepared.blocks, f.prepared.replay, f.prepared.table.axes);
+        const Paths paths = paths_of(f.prepared);
         w.model = none;
         choose(f, paths, w);
         // A cause is no more likely than this part: rather not there, it is not written. Where the
@@ -365,7 +355,7 @@ Written written_setup(const Outcome& f) {
             w.setup = set_up_alone(f);
         }
         w.blocks = {f.judgement.left_before, residual_of(f, w.model, f.prepared.folds)};
-        w.paths = {residual_of(f, none, paths), residual_of(f, w.model, paths)};
+        w.paths = {residual_of(f, none, paths.folds), residual_of(f, w.model, paths.folds)};
     } else {
         w.setup = set_up_alone(f);
         w.blocks = {f.judgement.left_before, f.judgement.left_before};

@@ -1,17 +1,21 @@
 #include "diagnosis/prepare/near_readings.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-
-#include "estimation/quantiles.h"
+#include <utility>
 
 namespace trunnion::diagnosis {
 namespace {
 
 constexpr std::size_t least_pairs = 20, most_pairs = 400;
 constexpr double near = 0.25;  ///< of the ranges of the axes: further off is no neighbour (assumed)
-constexpr double same_direction = 0.999;             ///< cosine
-constexpr double median_of_square = 0.454936423119;  ///< of a squared standard normal deviate
+constexpr double same_direction = 0.999;      ///< cosine
+constexpr double counted = 0.75;              ///< of the squares: the smallest ones
+constexpr double mean_of_counted = 0.368520;  ///< of squared standard normal deviates
+/// Deviation of the mean of n counted squares, times root n: these are pairs with common readings
+/// (simulated: 2.5 to 2.8).
+constexpr double doubt_of_one = 2.5;
 
 /// Positions of all rows, each axis in parts of its range.
 std::vector<Eigen::VectorXd> relative_positions(const emulator::Replay& replay) {
@@ -32,18 +36,37 @@ std::vector<Eigen::VectorXd> relative_positions(const emulator::Replay& replay) 
     return places;
 }
 
+/// The direction of a reading seen from the bed, from the table and from the tool.
+std::array<Vector3, 3> seen_directions(const emulator::Contact& contact) {
+    return {contact.direction_M, contact.direction_W,
+            contact.believed_WS.rotation.transpose() * contact.direction_W};
+}
+
+bool is_alike(const emulator::Contact& a, const emulator::Contact& b) {
+    if (a.device != b.device) return false;
+    const auto first = seen_directions(a), second = seen_directions(b);
+    for (std::size_t k = 0; k < first.size(); ++k)
+        if (first[k].dot(second[k]) > same_direction) return true;
+    return false;
+}
+
+/// Mean of the smallest squares, as a variance.
+double variance_of(std::vector<double> squares) {
+    std::sort(squares.begin(), squares.end());
+    const auto count = static_cast<std::size_t>(counted * static_cast<double>(squares.size()));
+    double sum = 0.0;
+    for (std::size_t k = 0; k < count; ++k) sum += squares[k];
+    return sum / static_cast<double>(count) / mean_of_counted;
+}
+
 }  // namespace
 
-double variance_of_neighbours(const emulator::Replay& replay, const std::vector<bool>& used,
-                              const Eigen::VectorXd& white) {
+NeighbourNoise noise_of_neighbours(const emulator::Replay& replay, const std::vector<bool>& used,
+                                   const Eigen::VectorXd& white) {
     const std::vector<Eigen::VectorXd> places = relative_positions(replay);
     const auto counts = [&](std::size_t i) {
         const records::Device device = replay.contact(i).device;
         return used[i] && (device == records::Device::angle || device == records::Device::point);
-    };
-    const auto is_alike = [&](std::size_t i, std::size_t j) {
-        const emulator::Contact &a = replay.contact(i), &b = replay.contact(j);
-        return a.device == b.device && a.direction_M.dot(b.direction_M) > same_direction;
     };
     std::vector<double> squares;
     const std::size_t step = 1 + replay.size() / most_pairs;
@@ -51,7 +74,7 @@ double variance_of_neighbours(const emulator::Replay& replay, const std::vector<
         if (!counts(i)) continue;
         double nearest = near * near, difference = 0.0;
         for (std::size_t j = 0; j < replay.size(); ++j) {
-            if (j == i || !counts(j) || !is_alike(i, j)) continue;
+            if (j == i || !counts(j) || !is_alike(replay.contact(i), replay.contact(j))) continue;
             const double distance = (places[i] - places[j]).squaredNorm();
             if (distance >= nearest) continue;
             nearest = distance;
@@ -59,8 +82,9 @@ double variance_of_neighbours(const emulator::Replay& replay, const std::vector<
         }
         if (nearest < near * near) squares.push_back(0.5 * difference * difference);
     }
-    if (squares.size() < least_pairs) return 0.0;
-    return estimation::quantile(squares, 0.5) / median_of_square;
+    if (squares.size() < least_pairs) return {};
+    const double doubt = doubt_of_one / std::sqrt(static_cast<double>(squares.size()));
+    return {variance_of(std::move(squares)), doubt};
 }
 
 }  // namespace trunnion::diagnosis

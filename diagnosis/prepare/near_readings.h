@@ -1,4 +1,5 @@
-// Noise told by neighbours, where nobody states it and nothing was read twice.
+// Noise told by neighbours, where nobody states it and nothing was read twice
+// (near_readings.cpp).
 #pragma once
 
 #include <Eigen/Core>
@@ -8,14 +9,21 @@
 
 namespace trunnion::diagnosis {
 
+/// Noise that neighbours tell.
+struct NeighbourNoise {
+    double variance = 0.0;  ///< of whitened readings; 0 below 20 pairs
+    double doubt = 0.0;     ///< standard deviation of the variance, relative
+};
+
 /// Variance of residuals that neighbours do not share: half the square of the difference of each
 /// reading and the nearest one of the same device and direction, by the positions of the axes in
-/// parts of their ranges, within a quarter (the joints of an arm have hardly any). Errors that
-/// follow the position are alike there and cancel; what is left is noise, or finer than the
-/// distance of the readings. By the median, so that a few spoiled readings do not matter. Only
-/// static readings in places of their own, which an instrument takes one by one (angle, point).
-/// `white`: residuals in sigma by device row. 0 below 20 pairs.
-double variance_of_neighbours(const emulator::Replay& replay, const std::vector<bool>& used,
-                              const Eigen::VectorXd& white);
+/// parts of their ranges, within a quarter (the joints of an arm have hardly any). The direction is
+/// the same seen from the bed, from the table or from the tool: the two readings of a star turn
+/// with the telescope. Errors that follow the position are alike there and cancel; what is left is
+/// noise, or finer than the distance of the readings. The largest quarter does not count, so that a
+/// few spoiled readings do not matter. Only static readings in places of their own, which an
+/// instrument takes one by one (angle, point). `white`: residuals in sigma by device row.
+NeighbourNoise noise_of_neighbours(const emulator::Replay& replay, const std::vector<bool>& used,
+                                   const Eigen::VectorXd& white);
 
 }  // namespace trunnion::diagnosis

@@ -194,20 +194,40 @@ std::vector<NoiseBlock> compared_rows(const std::vector<NoiseBlock>& blocks,
     return list;
 }
 
-/// Pairs of blocks that repeat each other row by row.
+/// Time that a pass takes; 0 of readings taken at rest.
+double duration_s(const emulator::Replay& replay, const NoiseBlock& block) {
+    if (block.device != records::Device::ballbar && block.device != records::Device::axis)
+        return 0.0;
+    const auto time_s = [&](Eigen::Index row) {
+        return replay.sample(static_cast<std::size_t>(row)).time_s;
+    };
+    return time_s(block.rows.back()) - time_s(block.rows.front());
+}
+
+/// Pairs of blocks that repeat each other row by row. Passes over the same path at different speeds
+/// are none, also where no column tells the feed: lags and reversals do differ.
 std::vector<std::pair<std::size_t, std::size_t>> repeated_blocks(
     const emulator::Replay& replay, const records::ReadingTable& table,
     const std::vector<NoiseBlock>& blocks) {
-    std::map<std::vector<Key>, std::size_t> seen;
+    constexpr double alike = 0.1;  // in proportion, assumed
+    std::map<std::vector<Key>, std::vector<std::size_t>> seen;
     std::vector<std::pair<std::size_t, std::size_t>> pairs;
     for (std::size_t b = 0; b < blocks.size(); ++b) {
         std::vector<Key> keys;
         for (const Eigen::Index i : blocks[b].rows)
             keys.push_back(key_of(replay, table, static_cast<std::size_t>(i)));
-        const auto [it, fresh] = seen.try_emplace(keys, b);
-        if (fresh) continue;
-        pairs.emplace_back(it->second, b);
-        it->second = b;
+        std::vector<std::size_t>& last = seen[std::move(keys)];  // one for each speed
+        const double own_s = duration_s(replay, blocks[b]);
+        const auto repeated = std::find_if(last.begin(), last.end(), [&](std::size_t other) {
+            const double other_s = duration_s(replay, blocks[other]);
+            return std::abs(own_s - other_s) <= alike * std::max(own_s, other_s);
+        });
+        if (repeated == last.end()) {
+            last.push_back(b);
+            continue;
+        }
+        pairs.emplace_back(*repeated, b);
+        *repeated = b;
     }
     return pairs;
 }

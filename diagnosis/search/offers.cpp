@@ -151,7 +151,9 @@ std::vector<Offer> OffersBeside::other_forms(std::size_t position) {
     const std::size_t held = model_.members[position];
     std::vector<std::size_t> forms;
     for (std::size_t k = 0; k < design_.groups().size(); ++k)
-        if (k != held && same_cause(design_.group(k), design_.group(held))) forms.push_back(k);
+        if (k != held && design_.groups()[k].visible() &&
+            same_cause(design_.group(k), design_.group(held)))
+            forms.push_back(k);
     if (forms.empty()) return {};
     return exact(changed(position, std::nullopt), forms);
 }

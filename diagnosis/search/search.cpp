@@ -166,7 +166,9 @@ Model joined(Design& design, const SearchSetting& setting, Model model) {
 std::vector<std::optional<std::size_t>> other_forms(const Design& design, std::size_t held) {
     std::vector<std::optional<std::size_t>> forms{std::nullopt};
     for (std::size_t k = 0; k < design.groups().size(); ++k)
-        if (k != held && same_cause(design.group(k), design.group(held))) forms.emplace_back(k);
+        if (k != held && design.groups()[k].visible() &&
+            same_cause(design.group(k), design.group(held)))
+            forms.emplace_back(k);
     return forms;
 }
 

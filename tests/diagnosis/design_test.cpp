@@ -1,8 +1,10 @@
 // Products that a search uses, against the columns themselves.
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "base/random.h"
 #include "diagnosis/search/heldout.h"
+#include "diagnosis/search/offers.h"
 
 namespace trunnion {
 namespace {
@@ -136,6 +138,23 @@ TEST_CASE("members that are asked again are not factored again", "[diagnosis]") 
     const auto again = b.design.held(members, sizes);
     CHECK(again != first);
     CHECK((again->given.mean() - mean).norm() == 0.0);
+}
+
+// Angles that readings see through one arm are hidden, and stand as forms of one turn each.
+TEST_CASE("a hidden form of a cause is not taken in place of another one", "[diagnosis]") {
+    Bench bench;
+    const diagnosis::Model model{{bench.groups[0]}, {{1.0}, 1.0}, 0.0};
+    const auto forms = [&] {
+        std::vector<std::size_t> list;
+        for (const diagnosis::Offer& offer :
+             diagnosis::OffersBeside(bench.design, model).other_forms(0))
+            list.push_back(offer.group);
+        std::sort(list.begin(), list.end());
+        return list;
+    };
+    CHECK(forms() == std::vector{bench.groups[1], bench.groups[2], bench.groups[3]});
+    bench.design.hide(bench.groups[2]);
+    CHECK(forms() == std::vector{bench.groups[1], bench.groups[3]});
 }
 
 }  // namespace trunnion

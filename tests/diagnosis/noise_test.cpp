@@ -1,4 +1,5 @@
 // The noise that a diagnosis finds, and the simpler forms of a cause.
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "base/units.h"
@@ -102,6 +103,48 @@ TEST_CASE("of a location each axis is a form, where there are several", "[diagno
     CHECK(forms_of() == std::vector<std::size_t>{4, 4});  // EX0B, EZ0B, EA0B, EC0B and of C
     std::erase_if(setup.machine.chain.work, [](const auto& a) { return a.axis == Axis::C; });
     CHECK(forms_of().empty());
+}
+
+namespace {
+
+/// Circles of the ballbar in one plane, both ways at two feeds. As a log has it that does not tell
+/// the feed.
+records::ReadingTable circles_of_one_plane(const setup::Setup& setup) {
+    records::ReadingTable all = campaign::empty_table(setup), table = all;
+    campaign::add_ballbar(all, setup, 120);
+    for (records::Reading& row : all.rows)
+        if (row.test.starts_with("plane0")) {
+            row.feed_mm_min = 0.0;
+            table.rows.push_back(row);
+        }
+    return table;
+}
+
+}  // namespace
+
+// The circle shrinks with the square of the feed. Taken for repeats, the two feeds would hide it in
+// the noise, and no other path could confirm the spike.
+TEST_CASE("passes at two feeds are no repeats, and what one plane shows is written",
+          "[diagnosis]") {
+    const setup::Setup setup = campaign::bc_setup();
+    setup::Setup truth =
+        campaign::with_effect(campaign::real_machine(setup), "servo.contour: lag2_s2=1e-4");
+    truth = campaign::with_effect(
+        truth, "X.reversal_spike: height_mm=0.006, decay_mm=1.5, law=1, run_up=1");
+    diagnosis::DiagnosisOptions options;
+    options.plan_next = false;
+    const diagnosis::Diagnosis d = diagnosis::diagnose(
+        setup, campaign::measured(truth, circles_of_one_plane(setup), 8), options);
+    CHECK(d.noise.source == diagnosis::NoiseSource::given);
+    CHECK(d.verdict == diagnosis::Verdict::explained);
+    for (const char* name : {"servo.contour", "X.reversal_spike"}) {
+        INFO(name);
+        const auto at = std::find_if(d.causes.begin(), d.causes.end(),
+                                     [&](const diagnosis::Cause& c) { return c.effect == name; });
+        REQUIRE(at != d.causes.end());
+        CHECK(at->probability >= 0.5);
+        CHECK(at->written);
+    }
 }
 
 }  // namespace trunnion
