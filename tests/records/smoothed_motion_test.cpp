@@ -35,8 +35,10 @@ std::vector<Vector3> smoothed(const std::vector<records::Reading>& rows, double 
 
 std::vector<double> times(std::size_t count, double step_s, double wobble) {
     std::vector<double> list;
-    for (std::size_t k = 0; k < count; ++k)
-        list.push_back(step_s * (static_cast<double>(k) + wobble * std::sin(2.4 * k)));
+    for (std::size_t k = 0; k < count; ++k) {
+        const auto step = static_cast<double>(k);
+        list.push_back(step_s * (step + wobble * std::sin(2.4 * step)));
+    }
     list.front() = 0.0;
     return list;
 }
@@ -78,7 +80,9 @@ TEST_CASE("a motion that went on before the log has its steady response from the
         // Slow motion: its own derivatives, up to the fourth order.
         CHECK(motion[k](0) == Approx((s * turn).imag()).margin(0.2));
         CHECK(motion[k](1) == Approx((s * s * turn).imag()).margin(10.0));
-        CHECK(motion[k](2) == Approx((once * once * once * turn).imag()).margin(100.0));
+        // Differences of the first rows tell a jerk less well: T^3 of this is 3 nm.
+        const double margin = list[k] < 5.0 * seconds ? 400.0 : 50.0;
+        CHECK(motion[k](2) == Approx((once * once * once * turn).imag()).margin(margin));
     }
 }
 
