@@ -230,6 +230,8 @@ class Editor {
     }
     /// Another work offset, the other side, another tool offset.
     void try_code(int line, const Word& word) {
+        constexpr double beyond_codes = 1000.0;  // no code or offset has four digits
+        if (std::abs(word.value) >= beyond_codes) return;
         const int code = static_cast<int>(word.value);
         if (word.value != code) return;
         std::vector<int> others;

@@ -17,7 +17,6 @@ namespace {
 constexpr double unseen_part = 0.7;  ///< fraction of the prior sigma: a larger posterior sigma
                                      ///< means undetermined
 constexpr std::size_t periods_listed = 4;
-constexpr double micro = 1e6;
 
 /// How the parameters of a group follow from the coefficients of its columns.
 Eigen::MatrixXd by_column(const ColumnGroup& group) {
@@ -139,7 +138,7 @@ void tell_order(const ColumnGroup& group, int order, const Eigen::VectorXd& own,
     cause.what = fmt::format(
         "An error of the angle of order {}, {} periods in a turn: amplitude {} µrad, largest at {} "
         "deg and every {} deg from there",
-        order, order, three_digits(micro * wave.norm()), three_digits(largest_deg),
+        order, order, three_digits(urad_from_rad(wave.norm())), three_digits(largest_deg),
         three_digits(360.0 / order));
     cause.usual_cause =
         "that many poles, lobes or supports on the turn: poles of a resolver, clamping or bearing "

@@ -201,11 +201,13 @@ std::optional<MistakenTable> mistaken_table(const Prepared& p, const SearchResul
         furthest_off(p.replay, set_up_left_mm(p, found.design).cwiseQuotient(sigma), used, {});
     const Explained now = explained_by(p, found, used, {}, sigma);
     if (before < rules::mistaken_sigmas) return std::nullopt;
-    // What effects of usual size explain to the noise is no slip, unless it is absurd.
+    // What effects of usual size explain to the noise is no slip, unless it is absurd: then it may
+    // be one.
     const std::vector<double> sizes = usual_sizes(found.design, found.model);
     const bool usual =
         std::all_of(sizes.begin(), sizes.end(), [](double size) { return size < rules::enormous; });
-    if (usual && now.left < to_the_noise && before < absurd) return std::nullopt;
+    const bool possible = usual && now.left < to_the_noise;
+    if (possible && before < absurd) return std::nullopt;
     const auto best = best_slip(p.replay.setup(), p.table, found.noise);
     if (!best) return wrong_size(p, now.left);
     const auto right = explained_when_right(*best, p, found.noise);
@@ -219,7 +221,7 @@ std::optional<MistakenTable> mistaken_table(const Prepared& p, const SearchResul
     // Beforehand a table is rarely mistaken; a tilt and an exchange of columns look alike.
     const double least = best->slip.of_unit ? 0.0 : -std::log(rules::mistaken_odds);
     if (evidence < least) return std::nullopt;
-    const bool certain = evidence > rules::plain_evidence;
+    const bool certain = !possible && evidence > rules::plain_evidence;
     return MistakenTable{certain ? sentence(*best) : doubt(*best), certain};
 }
 

@@ -23,9 +23,10 @@ struct SearchResult {
 
 /// The simple change of a table (two columns exchanged, a sign turned, mm for inches, ..) that
 /// explains nearly everything: with it the set-up alone leaves much less than it leaves now, and
-/// the evidence of a search among causes in the table put right is not below that of the
-/// causes found in it as it stands. Only looked for where the set-up alone is far from the
-/// readings.
+/// the evidence of a search among causes in the table put right is above that of the causes found
+/// in it as it stands, by the odds against a mistake (of a unit: not below). Not certain where
+/// causes of usual size leave the noise alone. Only looked for where the set-up alone is far from
+/// the readings.
 std::optional<MistakenTable> mistaken_table(const Prepared& prepared, const SearchResult& found,
                                             const std::vector<bool>& used);
 

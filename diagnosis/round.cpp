@@ -203,10 +203,11 @@ Model carried_over(const Searched& earlier, Design& design, const Prepared& p,
 }
 
 /// Nobody knows how far the assumed noise is from the true one, but neighbours do: that is what is
-/// expected, and beyond twice their doubt it is no noise.
+/// expected, and beyond twice their doubt it is no noise. Readings of a simulation have none at
+/// all: two deviations of the assumption are the least.
 void take_neighbours(const NeighbourNoise& told, NoiseBelief& belief) {
     if (told.variance <= 0.0) return;
-    const double off = 0.5 * std::log(told.variance);
+    const double off = std::max(0.5 * std::log(told.variance), -2.0 * belief.prior.spread);
     belief.most = std::max(belief.most, told.variance * (1.0 + 2.0 * told.doubt));
     if (std::abs(off) > belief.prior.spread) belief.prior.log_mean = off;
 }

@@ -91,13 +91,6 @@ records::ReadingTable sky(int count) {
     return table;
 }
 
-double probability_of(const diagnosis::Diagnosis& d, const std::string& effect) {
-    double most = 0.0;
-    for (const diagnosis::Cause& c : d.causes)
-        if (c.effect == effect) most = std::max(most, c.probability.value());
-    return most;
-}
-
 }  // namespace
 
 // Seen through one arm, roll and pitch do the work of a squareness and a scale: those are the names

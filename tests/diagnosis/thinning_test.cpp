@@ -95,7 +95,10 @@ TEST_CASE("the readings of a pose are kept together or left out together", "[dia
     }
 }
 
-TEST_CASE("rows of a servo log keep the speed of the whole log", "[diagnosis]") {
+namespace {
+
+/// X to and fro, 6,000 rows without an error.
+records::ReadingTable long_log() {
     records::ReadingTable table;
     table.path = "log.csv";
     table.axes = {Axis::X, Axis::Y, Axis::Z};
@@ -110,6 +113,13 @@ TEST_CASE("rows of a servo log keep the speed of the whole log", "[diagnosis]") 
         row.value_mm = 0.0;
         table.rows.push_back(row);
     }
+    return table;
+}
+
+}  // namespace
+
+TEST_CASE("rows of a servo log keep the speed of the whole log", "[diagnosis]") {
+    const records::ReadingTable table = long_log();
     const auto all = records::samples_of(table);
     const auto fewer = diagnosis::thinned(table, 2000);
     REQUIRE(fewer);
@@ -124,20 +134,7 @@ TEST_CASE("rows of a servo log keep the speed of the whole log", "[diagnosis]") 
 }
 
 TEST_CASE("rows of a thinned log answer to the motion of the whole log", "[diagnosis]") {
-    records::ReadingTable table;
-    table.path = "log.csv";
-    table.axes = {Axis::X, Axis::Y, Axis::Z};
-    for (int k = 0; k < 6000; ++k) {
-        records::Reading row;
-        row.index = k;
-        row.time_s = 0.005 * k;
-        row.test = "log";
-        row.device = records::Device::axis;
-        row.feature = "X";
-        row.commanded[Axis::X] = 40.0 * std::sin(6.28 * row.time_s);
-        row.value_mm = 0.0;
-        table.rows.push_back(row);
-    }
+    const records::ReadingTable table = long_log();
     TimeConstants constants{};
     constants[index_of(Axis::X)] = 0.02;
     const auto all = records::samples_of(table, constants);

@@ -107,13 +107,21 @@ TEST_CASE("a side that nothing tells is said to be taken, one that the fit tells
                Catch::Contains("C came travelling + (the other side fits worse by 40 "));
 }
 
-TEST_CASE("a following error at speed is plausible in a servo log, as far as a delay makes it",
-          "[identification]") {
+namespace {
+
+setup::Setup one_axis() {
     std::vector<std::string> notes;
-    const setup::Setup setup = setup::parse_setup(
+    return setup::parse_setup(
         "[machine]\nname = \"m\"\nchain = \"w b X t\"\n"
         "[model]\nnoise_um = { axis = 1 }\n",
         "s.toml", notes);
+}
+
+}  // namespace
+
+TEST_CASE("a following error at speed is plausible in a servo log, as far as a delay makes it",
+          "[identification]") {
+    const setup::Setup setup = one_axis();
     const effects::Catalogue catalogue = effects::make_catalogue(setup);
     const auto fit = [&](double lag_s, double still_mm) {
         records::ReadingTable log;
@@ -144,11 +152,7 @@ TEST_CASE("a following error at speed is plausible in a servo log, as far as a d
 
 TEST_CASE("an axis that stops after a fast move lags on, and that is plausible",
           "[identification]") {
-    std::vector<std::string> notes;
-    const setup::Setup setup = setup::parse_setup(
-        "[machine]\nname = \"m\"\nchain = \"w b X t\"\n"
-        "[model]\nnoise_um = { axis = 1 }\n",
-        "s.toml", notes);
+    const setup::Setup setup = one_axis();
     const double row_s = 0.005, lag_s = 0.04, speed = 120.0;
     records::ReadingTable log;
     log.path = "log.csv";

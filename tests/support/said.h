@@ -1,8 +1,10 @@
-// What a diagnosis says, causes with their rivals, in one line for the messages of tests.
+// What a diagnosis says: causes with their rivals in one line for the messages of tests, and the
+// probability of one of them.
 #pragma once
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 
 #include "diagnosis/diagnosis.h"
@@ -16,6 +18,14 @@ inline std::string said(const diagnosis::Diagnosis& d) {
                             c.since.empty() ? "" : " since " + c.since, 100.0 * c.share,
                             c.probability, fmt::join(c.rivals, " "));
     return text;
+}
+
+/// Of the form of an effect that is most probable; 0 if none is a cause.
+inline double probability_of(const diagnosis::Diagnosis& d, const std::string& effect) {
+    double most = 0.0;
+    for (const diagnosis::Cause& c : d.causes)
+        if (c.effect == effect) most = std::max(most, c.probability.value());
+    return most;
 }
 
 }  // namespace trunnion
