@@ -48,11 +48,8 @@ class AxisLog {
     }
 
     /// The same of the derivatives of the command itself.
-    double left_without(const std::vector<AxisSample>& samples, Axis axis) const {
-        return left_of([&](const LoggedRow& row) {
-            const AxisSample& s = samples[row.row];
-            return Vector3(s.velocity[axis], s.acceleration[axis], s.jerk[axis]);
-        });
+    double left_without(const std::vector<records::LoggedMotion>& motion) const {
+        return left_of([&](const LoggedRow& row) { return *motion[row.row].motion; });
     }
 
   private:
@@ -151,13 +148,13 @@ setup::Setup with_time_constants(setup::Setup setup, const records::ReadingTable
         return row.device == records::Device::axis;
     });
     if (!logged || tells_lag(setup)) return setup;
-    const std::vector<AxisSample> samples = records::samples_of(table);
+    const std::vector<records::LoggedMotion> motion = records::logged_motion(table);
     for (const Axis axis : table.axes) {
         double& seconds = setup.time_constant_s[index_of(axis)];
         if (seconds > 0.0) continue;
         const AxisLog log(table, axis);
         if (log.size() < least_rows) continue;
-        seconds = time_constant_of(log, log.left_without(samples, axis)).value_or(0.0);
+        seconds = time_constant_of(log, log.left_without(motion)).value_or(0.0);
     }
     return setup;
 }

@@ -3,16 +3,13 @@
 #include <Eigen/Cholesky>
 #include <array>
 #include <cmath>
-#include <map>
 #include <optional>
-#include <string_view>
 
+#include "records/passes.h"
 #include "records/smoothed_motion.h"
 
 namespace trunnion::records {
 namespace {
-
-using Rows = std::vector<std::size_t>;  // row indices of one pass, in order
 
 AxisSample sample_of(const Reading& row) {
     AxisSample sample;
@@ -38,7 +35,7 @@ Vector3 linear_position(const Reading& row) {
 /// Rows of one pass whose differences are velocities.
 class Pass {
   public:
-    Pass(std::span<const Reading> all, const Rows& rows, const AxisNames& names)
+    Pass(std::span<const Reading> all, const PassRows& rows, const AxisNames& names)
         : all_(all), rows_(rows), names_(names) {}
 
     void fill(const std::vector<Axis>& axes, std::vector<AxisSample>& samples) const {
@@ -57,18 +54,35 @@ class Pass {
 
     /// Adds what the time constant of the axis's drive makes of the motion.
     void smooth(Axis axis, double time_constant_s, std::vector<AxisSample>& samples) const {
-        const CommandedPath path = commanded_path(all_, rows_, axis, names_);
-        const std::vector<Vector3> smoothed = smoothed_motion(path, time_constant_s);
+        const std::vector<Vector3> motion = smoothed(axis, time_constant_s);
         for (std::size_t k = 0; k < rows_.size(); ++k) {
             if (!is_continuous(row(k).device)) continue;
             AxisSample& sample = samples[rows_[k]];
             const Vector3 own(sample.velocity[axis], sample.acceleration[axis], sample.jerk[axis]);
             const bool told = row(k).smoothing && names_.find(row(k).feature) == axis;
-            const Vector3 more = (told ? *row(k).smoothing : smoothed[path.at[k]]) - own;
+            const Vector3 more = (told ? *row(k).smoothing : motion[k]) - own;
             sample.smooth_velocity[axis] = more.x();
             sample.smooth_acceleration[axis] = more.y();
             sample.smooth_jerk[axis] = more.z();
         }
+    }
+
+    /// The motion of an axis at each row of the pass behind the time constant of its drive.
+    std::vector<Vector3> smoothed(Axis axis, double time_constant_s) const {
+        const CommandedPath path = commanded_path(all_, rows_, axis, names_);
+        const std::vector<Vector3> motion = smoothed_motion(path, time_constant_s);
+        std::vector<Vector3> of_rows;
+        for (const std::size_t k : path.at) of_rows.push_back(motion[k]);
+        return of_rows;
+    }
+
+    /// The commanded motion of an axis at row k: velocity, acceleration and jerk.
+    Vector3 motion(std::size_t k, Axis axis) const {
+        AxisSample sample;
+        fill_velocity(k, neighbours(k), axis, sample);
+        fill_curvature(k, {axis}, sample);
+        take_told(row(k), sample);
+        return {sample.velocity[axis], sample.acceleration[axis], sample.jerk[axis]};
     }
 
   private:
@@ -164,7 +178,7 @@ class Pass {
     }
 
     std::span<const Reading> all_;
-    const Rows& rows_;
+    const PassRows& rows_;
     const AxisNames& names_;
 };
 
@@ -240,53 +254,12 @@ class Walk {
     std::vector<AxisSample> samples_;
 };
 
-/// End of the run of rows from `begin` in the same session.
-std::size_t session_end(const std::vector<Reading>& rows, std::size_t begin) {
-    std::size_t end = begin;
-    while (end < rows.size() && rows[end].part == rows[begin].part &&
-           rows[end].session == rows[begin].session)
-        ++end;
-    return end;
-}
-
 /// Sides before the first row: from the file head, for its first session.
 AxisSides sides_before(const ReadingTable& table, std::size_t begin) {
     if (begin == 0) return table.side_before;
     const auto known = table.part_sides.find(table.rows[begin].part);
     const bool first = table.rows[begin - 1].part != table.rows[begin].part;
     return first && known != table.part_sides.end() ? known->second : AxisSides{};
-}
-
-/// True when the next rows (`step` 1) or the last ones (-1) are of the same test, at two times or
-/// more.
-bool goes_on(std::span<const Reading> rows, std::size_t k, std::size_t step) {
-    for (std::size_t i = k + step; i < rows.size() && rows[i].test == rows[k].test; i += step)
-        if (rows[i].time_s != rows[k].time_s) return true;
-    return false;
-}
-
-/// True when a test ended at row `from` and is repeated from row `to` on: another test ran in
-/// between. Rows of logs that were taken at the same time alternate, one time each.
-bool repeated(std::span<const Reading> rows, std::size_t from, std::size_t to) {
-    constexpr std::size_t back = static_cast<std::size_t>(-1);
-    if (to - from < 3 || !(goes_on(rows, from, back) || goes_on(rows, to, 1))) return false;
-    for (std::size_t i = from + 1; i < to; ++i)
-        if (goes_on(rows, i, 1)) return true;
-    return false;
-}
-
-/// The rows of each pass: of a test, or of each of its repetitions.
-std::vector<Rows> rows_of_passes(std::span<const Reading> rows) {
-    std::vector<Rows> passes;
-    std::map<std::string_view, std::size_t> last;  // pass of each test
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-        const auto [found, first] = last.try_emplace(rows[k].test, passes.size());
-        if (!first && repeated(rows, passes[found->second].back(), k))
-            found->second = passes.size();
-        if (found->second == passes.size()) passes.emplace_back();
-        passes[found->second].push_back(k);
-    }
-    return passes;
 }
 
 }  // namespace
@@ -306,7 +279,7 @@ std::vector<AxisSample> samples_of(std::span<const Reading> rows, const std::vec
     for (AxisSample& sample : samples)
         for (const Axis axis : axes)
             sample.side_unknown[index_of(axis)] = sample.travel[index_of(axis)] == 0;
-    for (const Rows& list : rows_of_passes(rows)) {
+    for (const PassRows& list : passes_of(rows)) {
         const Pass pass(rows, list, names);
         pass.fill(axes, samples);
         for (const Axis axis : axes)
@@ -334,18 +307,32 @@ std::vector<AxisSample> samples_of(const ReadingTable& table, const TimeConstant
     return samples;
 }
 
+std::vector<LoggedMotion> logged_motion(const ReadingTable& table, const TimeConstants& constants) {
+    std::vector<LoggedMotion> list(table.rows.size());
+    const auto axis_of = [&](std::size_t i) {
+        const Reading& row = table.rows[i];
+        return row.device == Device::axis ? table.names.find(row.feature) : std::nullopt;
+    };
+    for (const PassRows& rows : passes_of(table)) {
+        const Pass pass(table.rows, rows, table.names);
+        for (std::size_t k = 0; k < rows.size(); ++k)
+            if (const auto axis = axis_of(rows[k])) list[rows[k]].motion = pass.motion(k, *axis);
+        for (const Axis axis : table.axes) {
+            const double seconds = constants[index_of(axis)];
+            if (seconds <= 0.0) continue;
+            const std::vector<Vector3> smoothed = pass.smoothed(axis, seconds);
+            for (std::size_t k = 0; k < rows.size(); ++k)
+                if (axis_of(rows[k]) == axis) list[rows[k]].smoothed = smoothed[k];
+        }
+    }
+    return list;
+}
+
 std::vector<CommandedPath> logged_paths(const ReadingTable& table, Axis axis) {
     std::vector<CommandedPath> paths;
-    const std::span<const Reading> rows(table.rows);
-    for (std::size_t begin = 0, end = 0; begin < rows.size(); begin = end) {
-        end = session_end(table.rows, begin);
-        for (const Rows& pass : rows_of_passes(rows.subspan(begin, end - begin))) {
-            Rows of_axis;
-            paths.push_back(
-                commanded_path(rows.subspan(begin, end - begin), pass, axis, table.names));
-            for (const std::size_t i : pass) of_axis.push_back(begin + i);
-            paths.back().rows = std::move(of_axis);
-        }
+    for (const PassRows& pass : passes_of(table)) {
+        paths.push_back(commanded_path(table.rows, pass, axis, table.names));
+        paths.back().rows = pass;
     }
     return paths;
 }

@@ -1,6 +1,7 @@
 // Axis samples of the rows of a table: sides, velocities and distances by the rules of the format.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -33,6 +34,15 @@ std::vector<AxisSample> samples_of(const ReadingTable& table, const TimeConstant
 std::vector<AxisSample> samples_of(std::span<const Reading> rows, const std::vector<Axis>& axes,
                                    TravelHistory history, const AxisNames& names = {},
                                    const TimeConstants& constants = {});
+
+/// Velocity, acceleration and jerk (mm/s.., rad/s..) of the axis of an `axis` row.
+struct LoggedMotion {
+    std::optional<Vector3> motion;    ///< as in its AxisSample; none for other rows
+    std::optional<Vector3> smoothed;  ///< behind the time constant of its drive, if there is one
+};
+/// The same motion as in the samples of the rows, in a tenth of the memory.
+std::vector<LoggedMotion> logged_motion(const ReadingTable& table,
+                                        const TimeConstants& constants = {});
 
 /// The commanded motion of an axis in every pass of the table, with the rows of the pass.
 std::vector<CommandedPath> logged_paths(const ReadingTable& table, Axis axis);

@@ -58,9 +58,21 @@ bool same_pose(const records::ReadingTable& table, const records::Reading& a,
     });
 }
 
+/// Tells the commanded motion of a row of a servo log: between fewer rows its differences are
+/// others.
+void tell_motion(const records::LoggedMotion& told, records::Reading& row) {
+    if (!told.motion) return;
+    if (!row.velocity_mm_s) row.velocity_mm_s = told.motion->x();
+    if (!row.acceleration_mm_s2) row.acceleration_mm_s2 = told.motion->y();
+    if (!row.smoothing) row.smoothing = told.smoothed;
+}
+
 class Thinner {
   public:
-    Thinner(const records::ReadingTable& table, const Steps& steps) : table_(table), steps_(steps) {
+    /// `motion`: of the rows, if there are servo logs.
+    Thinner(const records::ReadingTable& table, const Steps& steps,
+            std::vector<records::LoggedMotion> motion)
+        : table_(table), steps_(steps), motion_(std::move(motion)) {
         for (const records::Reading& row : table.rows)
             if (is_pass(row.device)) ++length_[row.test];
     }
@@ -105,35 +117,21 @@ class Thinner {
         kept_.insert(kept_.end(), waiting_.begin(), waiting_.end());
         waiting_.clear();
         kept_.push_back(row);
+        if (!motion_.empty()) tell_motion(motion_[index_of(row)], kept_.back());
+    }
+
+    std::size_t index_of(const records::Reading& row) const {
+        return static_cast<std::size_t>(&row - table_.rows.data());
     }
 
     const records::ReadingTable& table_;
     Steps steps_;
+    std::vector<records::LoggedMotion> motion_;
     std::size_t poses_ = static_cast<std::size_t>(-1);
     const records::Reading* pose_ = nullptr;
     std::map<std::string, std::size_t> seen_, length_;  ///< rows of each pass: so far, in total
     std::vector<records::Reading> kept_, waiting_;
 };
-
-/// Tells the commanded motion of the rows of a servo log: between fewer rows its differences are
-/// others.
-records::ReadingTable with_told_motion(records::ReadingTable table,
-                                       const TimeConstants& constants) {
-    const std::vector<AxisSample> samples = records::samples_of(table, constants);
-    for (std::size_t i = 0; i < table.rows.size(); ++i) {
-        records::Reading& row = table.rows[i];
-        const auto axis = table.names.find(row.feature);
-        if (row.device != Device::axis || !axis) continue;
-        if (!row.velocity_mm_s) row.velocity_mm_s = samples[i].velocity[*axis];
-        if (!row.acceleration_mm_s2) row.acceleration_mm_s2 = samples[i].acceleration[*axis];
-        const AxisSample& s = samples[i];
-        if (constants[index_of(*axis)] > 0.0)
-            row.smoothing = Vector3(s.velocity[*axis] + s.smooth_velocity[*axis],
-                                    s.acceleration[*axis] + s.smooth_acceleration[*axis],
-                                    s.jerk[*axis] + s.smooth_jerk[*axis]);
-    }
-    return table;
-}
 
 bool has_log(const records::ReadingTable& table) {
     return std::any_of(table.rows.begin(), table.rows.end(),
@@ -161,8 +159,9 @@ std::optional<records::ReadingTable> thinned(const records::ReadingTable& table,
     fewer.names = table.names;
     fewer.optional_columns = table.optional_columns;
     const Steps steps = steps_for(table, most);
-    fewer.rows = has_log(table) ? Thinner(with_told_motion(table, constants), steps).rows()
-                                : Thinner(table, steps).rows();
+    std::vector<records::LoggedMotion> motion;
+    if (has_log(table)) motion = records::logged_motion(table, constants);
+    fewer.rows = Thinner(table, steps, std::move(motion)).rows();
     return fewer;
 }
 

@@ -114,4 +114,45 @@ TEST_CASE(
     CHECK(behind == Approx(40.0).epsilon(0.01));
 }
 
+TEST_CASE("the motion of servo logs is that of their samples", "[records]") {
+    records::ReadingTable table;
+    table.axes = {Axis::X, Axis::Y};
+    const std::vector<double> list = times(40, 0.01, 0.3);
+    for (const char* session : {"one", "two"})
+        for (const char* test : {"a", "b"})
+            for (const double t : list)
+                for (const Axis axis : {Axis::X, Axis::Y}) {
+                    records::Reading row;
+                    row.session = session;
+                    row.test = test;
+                    row.time_s = t;
+                    row.device = records::Device::axis;
+                    row.feature = axis == Axis::X ? "X" : "Y";
+                    row.commanded[Axis::X] = 30.0 * std::sin(20.0 * t);
+                    row.commanded[Axis::Y] = 50.0 * t * t;
+                    if (t == list[5]) row.velocity_mm_s = 7.0;
+                    table.rows.push_back(row);
+                }
+    table.rows[9].device = records::Device::none;
+    TimeConstants constants{};
+    constants[1] = 0.004;  // of Y
+    const std::vector<AxisSample> samples = records::samples_of(table, constants);
+    const std::vector<records::LoggedMotion> motion = records::logged_motion(table, constants);
+    REQUIRE(motion.size() == table.rows.size());
+    for (std::size_t k = 0; k < motion.size(); ++k) {
+        INFO("row " << k);
+        CHECK(motion[k].motion.has_value() == (table.rows[k].device == records::Device::axis));
+        if (!motion[k].motion) continue;
+        const Axis axis = table.rows[k].feature == "X" ? Axis::X : Axis::Y;
+        const AxisSample& s = samples[k];
+        const Vector3 own(s.velocity[axis], s.acceleration[axis], s.jerk[axis]);
+        const Vector3 more(s.smooth_velocity[axis], s.smooth_acceleration[axis],
+                           s.smooth_jerk[axis]);
+        CHECK(*motion[k].motion == own);
+        CHECK(motion[k].smoothed.has_value() == (axis == Axis::Y));
+        if (motion[k].smoothed)
+            CHECK((*motion[k].smoothed - own - more).norm() <= 1e-12 * (1.0 + own.norm()));
+    }
+}
+
 }  // namespace trunnion
