@@ -11,6 +11,7 @@
 #include "cli/budget_options.h"
 #include "cli/command.h"
 #include "cli/diagnose_program.h"
+#include "cli/heap.h"
 #include "cli/long_work.h"
 #include "cli/notes.h"
 #include "cli/options.h"
@@ -46,6 +47,7 @@ std::string title_of(const std::vector<std::string>& readings) {
 /// Shows what it works on; as long as `meter` allows.
 diagnosis::Diagnosis diagnose_watched(const setup::Setup& setup, const records::ReadingTable& table,
                                       diagnosis::DiagnosisOptions how, BudgetMeter& meter) {
+    use_large_pages();
     Progress progress;
     std::string now;
     how.watch = [&](const char* stage) { progress.stage(now = stage); };

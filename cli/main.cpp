@@ -1,9 +1,6 @@
 // trunnion: parses the command line, runs one command, converts exceptions into messages and exit
 // codes.
 #include <fmt/format.h>
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -27,6 +24,7 @@
 #include "base/waiting.h"
 #include "cli/budget_options.h"
 #include "cli/command.h"
+#include "cli/heap.h"
 #include "cli/help_text.h"
 #include "cli/long_work.h"
 #include "cli/notes.h"
@@ -294,21 +292,10 @@ void end_at_missing_object(int signal) {
     std::_Exit(exit_limit);
 }
 
-/// Matrices of a few megabytes are allocated and freed all the time. Without this glibc takes each
-/// of them from the kernel anew, page by page, a fifth of the time of `diagnose`.
-void keep_freed_memory() {
-#ifdef __GLIBC__
-    constexpr int megabyte = 1 << 20;
-    mallopt(M_MMAP_THRESHOLD, 32 * megabyte);  // the most that it accepts
-    mallopt(M_TRIM_THRESHOLD, 256 * megabyte);
-    mallopt(M_TOP_PAD, 4 * megabyte);
-#endif
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-    keep_freed_memory();
+    cli::keep_freed_memory();
     std::set_new_handler(note_missing_memory);
     std::set_terminate(end_without_memory);
     std::signal(SIGSEGV, end_at_missing_object);
