@@ -164,8 +164,9 @@ std::vector<std::string> time_constant_words(const setup::Setup& setup) {
     for (const kinematics::AxisGeometry& axis : setup.machine.chain.axes())
         if (const double seconds = setup.time_constant_s[index_of(axis.axis)]; seconds > 0.0)
             sentences.push_back(
-                fmt::format("the lag of {} is that of its motion behind a time constant of {} ms",
-                            axis.name, three_digits(1e3 * seconds)));
+                fmt::format("the lag of {} is that of its motion behind a time constant of {} ms{}",
+                            axis.name, three_digits(1e3 * seconds),
+                            seconds < 1.01 * least_time_constant_s ? " or less" : ""));
     return sentences;
 }
 
