@@ -85,7 +85,8 @@ const DeviceEntry& entry_of(records::Device device) {
 int artefact_index(const setup::Setup& setup, const std::string& name) {
     for (std::size_t k = 0; k < setup.artefacts.size(); ++k)
         if (setup.artefacts[k].name == name) return static_cast<int>(k);
-    throw InputError("the setup has no artefact named '" + name + "'");
+    throw InputError(name.empty() ? "the row names no artefact (column 'feature')"
+                                  : "the setup has no artefact named '" + name + "'");
 }
 
 }  // namespace

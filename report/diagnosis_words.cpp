@@ -14,27 +14,6 @@ namespace {
 
 constexpr double claimed_from = 0.5;  ///< probability of a cause
 
-struct ShopUnit {
-    const char *from, *to;
-    double factor, below;  ///< factor for values below this limit
-};
-
-constexpr ShopUnit shop_units[] = {
-    {"mm", "µm", 1e3, 1.0}, {"rad", "µrad", 1e6, 0.01}, {"s", "ms", 1e3, 0.1}};
-
-/// "gap_rad" in rad becomes "gap"; vector components get their letter.
-std::string plain_name(const identification::FitParameter& p) {
-    std::string name = p.name;
-    const std::string end = '_' + p.unit;
-    // "cup.x_mm" and, of one session, "CMM.x_mm.monday"
-    const std::size_t at = name.rfind(end);
-    if (at != std::string::npos && at > 0 &&
-        (at + end.size() == name.size() || name[at + end.size()] == '.'))
-        name.erase(at, end.size());
-    std::replace(name.begin(), name.end(), '_', ' ');
-    return p.component < 0 ? name : fmt::format("{} {}", name, "xyz"[p.component]);
-}
-
 constexpr double improbable = 0.1;  ///< probability below which rivals are rather the cause
 
 using Causes = std::vector<const diagnosis::Cause*>;
@@ -246,34 +225,6 @@ std::string upper_first(std::string text) {
     if (!text.empty())
         text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
     return text;
-}
-
-ShopValue shop_value(const identification::FitParameter& p) {
-    ShopValue v{plain_name(p), "", "–", p.unit == "1" ? "" : p.unit};
-    double factor = 1.0;
-    for (const ShopUnit& unit : shop_units)
-        if (p.unit == unit.from && std::abs(p.value) < unit.below &&
-            (std::isfinite(p.sigma) || p.value == 0.0 || p.unit != "s")) {
-            factor = unit.factor;
-            v.unit = unit.to;
-        }
-    const double value = factor * p.value, sigma = factor * p.sigma;
-    const Rounded text = rounded(value, sigma);
-    v.value = text.value;
-    v.sigma = text.sigma;
-    return v;
-}
-
-std::string main_size(const diagnosis::Cause& cause) {
-    const identification::FitParameter* most = nullptr;
-    const auto strength = [](const identification::FitParameter& p) {
-        return std::isfinite(p.sigma) && p.sigma > 0.0 ? std::abs(p.value) / p.sigma : 0.0;
-    };
-    for (const identification::FitParameter& p : cause.parameters)
-        if (!most || strength(p) > strength(*most)) most = &p;
-    if (!most) return "–";
-    const ShopValue v = shop_value(*most);
-    return fmt::format("{} {} ± {} {}", v.name, v.value, v.sigma, v.unit);
 }
 
 std::string verdict_sentence(const diagnosis::Diagnosis& d) {

@@ -5,17 +5,10 @@
 #include <vector>
 
 #include "diagnosis/diagnosis.h"
+#include "report/shop_value.h"
 
 namespace trunnion::report {
 
-/// One parameter in workshop units: um and urad instead of mm and rad for small values.
-struct ShopValue {
-    std::string name, value, sigma, unit;  ///< sigma "-" if it does not exist
-};
-ShopValue shop_value(const identification::FitParameter& parameter);
-
-/// "gap 81.2 +- 0.9 urad": the parameter with the largest ratio to its uncertainty.
-std::string main_size(const diagnosis::Cause& cause);
 /// A size that is named _um: "12.3 µm", or in µrad where all readings are angles.
 std::string size_words(const diagnosis::Diagnosis& d, double size);
 /// "C.backlash", "C.backlash since friday"; of two causes of one name "Y.straightness as a table"

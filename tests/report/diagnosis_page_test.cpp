@@ -58,6 +58,16 @@ TEST_CASE("values stand in the units of the shop, digits as sure as sigma") {
     CHECK(report::main_size(d.causes[0]) == "gap 81.23 ± 0.90 µrad");
 }
 
+TEST_CASE("a wave has the size of its amplitude") {
+    diagnosis::Cause cause;
+    cause.effect = "C.positioning";
+    cause.parameters = {{cause.effect, "cos4_rad", "rad", -1, 1e-6, -30e-6, 2e-6},
+                        {cause.effect, "sin4_rad", "rad", -1, 1e-6, 40e-6, 1e-6}};
+    CHECK(report::main_size(cause) == "amplitude4 50.0 ± 2.0 µrad");
+    cause.parameters[0].name = "cos3_rad";
+    CHECK(report::main_size(cause) == "sin4 40.0 ± 1.0 µrad");
+}
+
 TEST_CASE("what no cause explains has its words on the page, no empty section") {
     diagnosis::Diagnosis d = one_cause();
     d.verdict = diagnosis::Verdict::unexplained;
