@@ -101,7 +101,8 @@ std::vector<TablePoint> points_of(const ColumnGroup& group, const Eigen::VectorX
             }
             const int d = table.directions[k];
             const Eigen::VectorXd by = group.shape.transpose() * wave;
-            points.push_back({effects::motion_name(d, table.axis), q, wave.dot(value),
+            points.push_back({table.play ? "gap" : effects::motion_name(d, table.axis), q,
+                              wave.dot(value),
                               table_unit(d) * std::sqrt(std::max(0.0, by.dot(covariance * by))),
                               "rad", d < 3 ? "mm" : "rad", counts_against(table, d)});
         }
@@ -246,13 +247,16 @@ Cause cause_of(const FoundModel& f, const Claim& claim) {
     }
     cause.points = points_of(group, own, spread);
     if (group.table.play) {
+        const bool turns = group.table.axis.rotary;
         cause.what =
             "The backlash of the axis changes along its travel; beside it, what is the same "
             "everywhere is a cause of its own";
-        cause.usual_cause = "screw or rack worn where it works most";
-        cause.remedy =
-            "inspect the screw; one backlash value of the control is right at one place "
-            "only, pitch error tables for both directions are right at all";
+        cause.usual_cause = turns ? "worm wheel off centre, or worn where it works most"
+                                  : "screw or rack worn where it works most";
+        cause.remedy = fmt::format(
+            "inspect the {}; one backlash value of the control is right at one place only, pitch "
+            "error tables for both directions are right at all",
+            turns ? "drive" : "screw");
         return cause;
     }
     cause.what = "An error of the axis that follows its position in a form of its own";

@@ -87,6 +87,7 @@ class DriverList {
     std::vector<RowFunction> beside_play(Axis axis) const {
         if (std::find(with_play_.begin(), with_play_.end(), axis) == with_play_.end())
             return {machine(0), machine(1), machine(2), axis_response(axis)};
+        if (turns(axis)) return machine_axes();
         std::vector<RowFunction> across;
         const int along = effects::main_direction(*base_.setup.machine.chain.find(axis));
         for (int d = 0; d < 3; ++d)

@@ -19,8 +19,8 @@ struct Family {
     bool all_angles;              ///< all three directions
     std::size_t knots;            ///< maximum
     Eigen::Index shapes;          ///< maximum for one direction
-    int owned;                    ///< number of polynomials, or of harmonics of a turn
-    double log_prior = 0.0;       ///< relative to the others
+    int owned;               ///< number of polynomials, or of harmonics of a turn beside a constant
+    double log_prior = 0.0;  ///< relative to the others
 };
 
 /// The bow of a straightness stays in its table, as in that of the angles: seen through one arm
@@ -31,6 +31,7 @@ constexpr Family families[] = {
     {EffectKind::angular, false, false, true, true, 16, 8, 2, rules::by_an_arm},
     {EffectKind::backlash, false, true, false, false, 24, 12, 1},
     {EffectKind::positioning, true, true, true, false, 40, 24, 2},
+    {EffectKind::backlash, true, true, true, false, 24, 12, 0},
     {EffectKind::radial, true, false, false, false, 24, 12, 3},
     {EffectKind::axial, true, true, false, false, 24, 12, 2},
     {EffectKind::tilt, true, false, true, false, 24, 12, 2}};
@@ -155,15 +156,18 @@ std::vector<Shape> shapes_of_turn(const Prepared& p, const TableForm& table) {
 
 /// True when the readings see the play from both sides on most of the range; elsewhere it cannot
 /// be told from positioning.
-bool sees_both_sides(const Prepared& p, const TableForm& table) {
-    std::vector<int> sides(table.knots.size(), 0);
+bool sees_both_sides(const Prepared& p, const Family& family, const TableForm& table) {
+    const std::vector<double> knots =
+        table.knots.empty() ? estimation::knots_of(places_of(p, table.axis.axis), family.knots)
+                            : table.knots;
+    std::vector<int> sides(knots.size(), 0);
     const Eigen::VectorXd column = identification::effect_column(
         p.replay, p.base.gradient, {*table.play, table.play->zeros(), 0});
     for (std::size_t i = 0; i < p.replay.size(); ++i) {
         const int travel = p.replay.sample(i).travel[index_of(table.axis.axis)];
         if (travel == 0 || column(static_cast<Eigen::Index>(i)) == 0.0) continue;
         const auto [knot, weight] =
-            estimation::place_between(table.knots, p.replay.sample(i).position[table.axis.axis]);
+            estimation::place_between(knots, p.replay.sample(i).position[table.axis.axis]);
         sides[static_cast<std::size_t>(knot) + (weight > 0.5 ? 1 : 0)] |= travel > 0 ? 1 : 2;
     }
     const auto both = std::count(sides.begin(), sides.end(), 3);
@@ -285,7 +289,7 @@ void add_family(Design& design, const Prepared& p, const Whitener& whitener, con
     if (table.orders <= 0 && table.knots.size() < least_knots(family)) return;
     if (family.motion == EffectKind::backlash) {
         table.play = effects::find_effect(p.catalogue, family.motion, axis.axis);
-        if (!table.play || !sees_both_sides(p, table)) return;
+        if (!table.play || !sees_both_sides(p, family, table)) return;
     }
     add_table(design, p, whitener, family, table);
     if (table.orders == 0 || family.motion != EffectKind::positioning) return;

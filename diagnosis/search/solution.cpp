@@ -46,13 +46,11 @@ void add_free_form(setup::Setup& setup, const ColumnGroup& group,
     const auto add_knots = at_places ? set_places : add_table;
     const Eigen::VectorXd value = table_values(group, coefficients);
     const Eigen::Index each = group.table.per_direction();
-    if (group.table.play) {
-        add_knots(setup.gap[index_of(group.table.axis.axis)], group.table.knots, value);
-        return;
-    }
     auto& motion = setup.machine.errors.axis[index_of(group.table.axis.axis)].motion;
     for (std::size_t k = 0; k < group.table.directions.size(); ++k) {
-        kinematics::ErrorCurve& curve = motion[static_cast<std::size_t>(group.table.directions[k])];
+        kinematics::ErrorCurve& curve =
+            group.table.play ? setup.gap[index_of(group.table.axis.axis)]
+                             : motion[static_cast<std::size_t>(group.table.directions[k])];
         const Eigen::VectorXd own = value.segment(static_cast<Eigen::Index>(k) * each, each);
         if (!group.table.knots.empty()) {
             add_knots(curve, group.table.knots, own);

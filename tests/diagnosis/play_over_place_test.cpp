@@ -1,10 +1,12 @@
-// A backlash that depends on the place: a laser's runs both ways (ISO 230-2) tell it, one way does
-// not.
+// A backlash that depends on the place: a laser's or an autocollimator's runs both ways (ISO 230-2)
+// tell it, one way does not.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
 #include <random>
 
+#include "base/units.h"
 #include "diagnosis/diagnosis.h"
 #include "effects/settings.h"
 #include "emulator/replay.h"
@@ -117,6 +119,88 @@ TEST_CASE("runs one way do not tell play from positioning", "[diagnosis]") {
               1, false));
     INFO(said(d));
     CHECK_FALSE(table_of_play(d));
+}
+
+namespace {
+
+constexpr double sigma_rad = 2e-6;
+
+/// Four runs of an autocollimator, up and down: whole turns of B in steps of 10 degrees, or 90
+/// degrees to both sides in steps of 7.5.
+records::ReadingTable autocollimator(const GapOverPlace& gap_rad, bool whole, unsigned seed) {
+    std::mt19937_64 engine(seed);
+    std::normal_distribution<double> noise(0.0, sigma_rad);
+    records::ReadingTable table;
+    table.path = "angles.csv";
+    table.axes = {Axis::X, Axis::Y, Axis::Z, Axis::B};
+    const double step = rad_from_deg(whole ? 10.0 : 7.5);
+    const int first = whole ? 0 : -12, last = whole ? 36 : 12;
+    const auto add = [&](int k, int side) {
+        records::Reading row;
+        row.index = static_cast<int>(table.rows.size());
+        row.time_s = 5.0 * row.index;
+        row.test = "turns";
+        row.commanded[Axis::B] = k * step;
+        if (side != 0) {
+            row.device = records::Device::angle;
+            row.feature = "R1";
+            row.angular = true;
+            row.direction_M = Vector3(0, 1, 0);
+            row.value_mm = 0.5 * side * gap_rad(k * step) + noise(engine);
+        }
+        table.rows.push_back(row);
+    };
+    for (int run = 0; run < 4; ++run) {
+        add(first - 1, 0);
+        for (int k = first; k <= last; ++k) add(k, 1);
+        add(last + 1, 0);
+        for (int k = last; k >= first; --k) add(k, -1);
+    }
+    return table;
+}
+
+}  // namespace
+
+TEST_CASE("the play of a worm that changes with the angle is a table, and is written",
+          "[diagnosis]") {
+    const bool whole = GENERATE(true, false);
+    const GapOverPlace gap_rad = [&](double at_rad) {
+        return 40e-6 + (whole ? 30e-6 * std::cos(at_rad - 0.8)
+                              : 60e-6 * std::exp(-0.5 * std::pow((at_rad - 0.3) / 0.45, 2)));
+    };
+    std::vector<std::string> notes;
+    const setup::Setup setup = setup::parse_setup(
+        "[machine]\nname = \"m\"\nchain = \"w B b X Y Z t\"\n"
+        "[machine.axis.B]\ndirection = [0, 1, 0]\npoint_mm = [0, 0, 0]\n"
+        "[[artefact]]\nname = \"R1\"\nkind = \"target\"\ntool_mm = [0, 0, -150]\n"
+        "[model]\nmodelled = []\n",
+        "s.toml", notes);
+    diagnosis::DiagnosisOptions options;
+    options.plan_next = false;
+    const auto d = diagnosis::diagnose(setup, autocollimator(gap_rad, whole, 3), options);
+    INFO(said(d));
+    CHECK(d.explained > 0.95);
+    for (const diagnosis::Cause& c : d.causes) CHECK(c.effect == "B.backlash");
+    const auto play = std::find_if(d.causes.begin(), d.causes.end(),
+                                   [](const auto& c) { return !c.points.empty(); });
+    REQUIRE(play != d.causes.end());
+    CHECK(play->points.front().error == "gap");
+    CHECK(play->usual_cause.starts_with("worm"));
+    // The written setup read back predicts fresh readings.
+    const setup::Setup written =
+        setup::parse_setup(setup::format_setup(d.setup), "written.toml", notes);
+    const records::ReadingTable fresh = autocollimator(gap_rad, whole, 4);
+    const auto predicted =
+        emulator::predicted(written, fresh, effects::active_models(written)).rows;
+    double squares = 0.0, sum = 0.0, count = 0.0;
+    for (std::size_t i = 0; i < predicted.size(); ++i) {
+        if (!fresh.rows[i].value_mm) continue;
+        const double left = *fresh.rows[i].value_mm - *predicted[i].value_mm;
+        squares += left * left;
+        sum += left;
+        ++count;
+    }
+    CHECK(std::sqrt(squares / count - std::pow(sum / count, 2)) < 1.3 * sigma_rad);
 }
 
 }  // namespace trunnion
