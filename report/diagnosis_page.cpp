@@ -189,25 +189,32 @@ std::string cause_heading(const diagnosis::Diagnosis& d, const diagnosis::Cause&
            (missing.empty() ? "" : " " + escape_xml(upper_first(missing)) + ".") + "</p>\n";
 }
 
+/// What the cause is, where it usually comes from, what to do, and what else it may be.
+std::string cause_words(const diagnosis::Diagnosis& d, const diagnosis::Cause& cause) {
+    std::string text = cause_heading(d, cause) + "<p>" + escape_xml(cause.what) + ".";
+    if (!cause.usual_cause.empty())
+        text += " <b>Usual cause:</b> " + escape_xml(cause.usual_cause) + ".";
+    text += " <b>What to do:</b> " + escape_xml(cause.remedy) + ".";
+    if (!cause.points.empty() && !cause.holds_between)
+        text += " It holds at the measured places only.";
+    text += "</p>\n";
+    if (!cause.rivals.empty())
+        text += fmt::format("<p class=\"bad-text\">{}: {}.</p>\n", upper_first(rivals_words(cause)),
+                            rivals_text(cause));
+    return text;
+}
+
 std::string free_form_section(const diagnosis::Diagnosis& d, const diagnosis::Cause& cause) {
     return fmt::format(
-        "{}<p>{}. <b>What to do:</b> {}.{}</p>\n{}<details><summary>Table"
-        "</summary><pre tabindex=\"0\">{}</pre></details>\n",
-        cause_heading(d, cause), escape_xml(cause.what), escape_xml(cause.remedy),
-        cause.holds_between ? "" : " It holds at the measured places only.", error_curves(cause),
-        escape_xml(error_table(cause)));
+        "{}{}<details><summary>Table</summary><pre tabindex=\"0\">{}</pre></details>\n",
+        cause_words(d, cause), error_curves(cause), escape_xml(error_table(cause)));
 }
 
 std::string cause_section(const diagnosis::Diagnosis& d, const diagnosis::Cause& cause) {
     if (!cause.points.empty()) return free_form_section(d, cause);
     if (!cause.known) return cause_heading(d, cause) + "<p>" + escape_xml(cause.what) + ".</p>\n";
     if (cause.parameters.empty()) return "";
-    std::string text = fmt::format("{}<p>{}. <b>Usual cause:</b> {}. <b>What to do:</b> {}.</p>\n",
-                                   cause_heading(d, cause), escape_xml(cause.what),
-                                   escape_xml(cause.usual_cause), escape_xml(cause.remedy));
-    if (!cause.rivals.empty())
-        text += fmt::format("<p class=\"bad-text\">{}: {}.</p>\n", upper_first(rivals_words(cause)),
-                            rivals_text(cause));
+    std::string text = cause_words(d, cause);
     text += "<div class=\"scroll\" tabindex=\"0\"><table>" +
             row({"Parameter", "Value", "&plusmn; 1 sigma", "Unit"}, "th");
     for (const identification::FitParameter& p : cause.parameters) {
