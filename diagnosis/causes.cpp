@@ -8,6 +8,7 @@
 
 #include "base/rounded.h"
 #include "base/units.h"
+#include "diagnosis/beyond_command.h"
 #include "diagnosis/rules/rules.h"
 #include "estimation/ranked_least_squares.h"
 
@@ -56,15 +57,6 @@ bool counts_against(const TableForm& table, int direction) {
            table.axis.direction(main) < 0.0;
 }
 
-/// How far an effect of a linear axis moves it at a position, mm.
-double moved_mm(const effects::Effect& effect, const std::vector<double>& values, double at_mm) {
-    AxisSample sample;
-    sample.position[*effect.axis] = at_mm;
-    kinematics::Perturbation out;
-    effect.add(sample, {}, values, out);
-    return out.axis[*effect.axis];
-}
-
 std::vector<TablePoint> points_of(const ColumnGroup& group, const Eigen::VectorXd& own,
                                   const Eigen::MatrixXd& covariance) {
     const TableForm& table = group.table;
@@ -84,8 +76,6 @@ std::vector<TablePoint> points_of(const ColumnGroup& group, const Eigen::VectorX
                              table.axis.rotary ? "rad" : "mm",
                              d < 3 ? "mm" : "rad",
                              counts_against(table, d)};
-            if (!table.play && !table.axis.rotary && d == effects::main_direction(table.axis))
-                point.too_far_mm = table.axis.direction(d) * point.value;
             points.push_back(std::move(point));
         }
     // Points of a whole turn, from its harmonics.
@@ -101,10 +91,11 @@ std::vector<TablePoint> points_of(const ColumnGroup& group, const Eigen::VectorX
             }
             const int d = table.directions[k];
             const Eigen::VectorXd by = group.shape.transpose() * wave;
+            const double own_sigma =
+                table_unit(d) * std::sqrt(std::max(0.0, by.dot(covariance * by)));
             points.push_back({table.play ? "gap" : effects::motion_name(d, table.axis), q,
-                              wave.dot(value),
-                              table_unit(d) * std::sqrt(std::max(0.0, by.dot(covariance * by))),
-                              "rad", d < 3 ? "mm" : "rad", counts_against(table, d)});
+                              wave.dot(value), own_sigma, "rad", d < 3 ? "mm" : "rad",
+                              counts_against(table, d)});
         }
     return points;
 }
@@ -168,24 +159,6 @@ bool is_seen_in_a_form(const Design& design, const ColumnGroup& group, std::size
 
 }  // namespace
 
-void add_scales(const effects::Catalogue& catalogue, std::vector<Cause>& causes) {
-    for (const Cause& scale : causes) {
-        const effects::Effect* effect = effects::find_effect(catalogue, scale.effect);
-        if (!effect || effect->kind != effects::EffectKind::scale || !scale.since.empty() ||
-            scale.probability < rules::claimed)
-            continue;
-        std::vector<double> values;
-        for (const identification::FitParameter& p : scale.parameters) values.push_back(p.value);
-        const std::string axis = scale.effect.substr(0, scale.effect.find('.'));
-        for (Cause& table : causes)
-            for (TablePoint& point : table.points) {
-                if (!point.too_far_mm || point.error.substr(2) != axis) continue;
-                *point.too_far_mm += moved_mm(*effect, values, point.at);
-                table.includes = scale.effect;
-            }
-    }
-}
-
 std::vector<identification::Inseparable> unseen_of(const Design& design, std::size_t member) {
     std::vector<identification::Inseparable> groups;
     const Design::Entry& entry = design.groups()[member];
@@ -241,6 +214,7 @@ Cause cause_of(const FoundModel& f, const Claim& claim) {
         return cause;
     }
     cause.holds_between = f.judgement.interpolates[claim.position];
+    cause.beyond = beyond_command(group, own);
     if (const auto order = single_order(group)) {
         tell_order(group, *order, own, spread, cause);
         return cause;

@@ -17,10 +17,6 @@ struct FoundModel {
 };
 /// Without its held-out results.
 Cause cause_of(const FoundModel& found, const Claim& claim);
-/// Adds the scales that are claimed beside free forms of the same slides (TablePoint::too_far_mm):
-/// a control that compensates the one has to compensate the other.
-void add_scales(const effects::Catalogue& catalogue, std::vector<Cause>& causes);
-
 /// Directions of the parameters of an effect, in a form of it, that these readings do not
 /// determine. A parameter that another form of it has is held at 0, not unseen.
 std::vector<identification::Inseparable> unseen_of(const Design& design, std::size_t group);

@@ -31,9 +31,13 @@ struct TablePoint {
     double at = 0.0, value = 0.0, sigma = 0.0;
     std::string at_unit, unit;  ///< mm or rad
     bool against = false;       ///< the error counts along + of M, the axis the other way round
-    /// Of a slide along its own travel: how far beyond the command it goes, mm, with the scale of
-    /// the axis where one is claimed beside the table (Cause::includes).
-    std::optional<double> too_far_mm = {};
+};
+
+/// How far an axis goes beyond its command, in its own sense, at places of its travel (mm or rad).
+struct BeyondCommand {
+    std::string axis;  ///< empty: the cause tells nothing of it
+    bool rotary = false;
+    std::vector<double> at, too_far;
 };
 
 struct Cause {
@@ -47,12 +51,15 @@ struct Cause {
     HeldOut heldout;
     std::string what, usual_cause, remedy;
     std::vector<TablePoint> points;  ///< of a cause in free form, else empty
-    std::string includes;            ///< cause that TablePoint::too_far_mm includes: "Y.scale"
-    Finite rms_sigma = 0.0;          ///< what it does to the readings, rms in their sigma
-    bool holds_between = true;       ///< a free form that predicts places left out
-    std::string since;               ///< a change: the session from which it holds; else empty
-    bool known = true;               ///< false: structure that nothing in the catalogue explains
-    bool written = true;             ///< false: it does not stand in Diagnosis::setup
+    /// Of a positioning error in free form, with the other claimed ones of its axis; empty for
+    /// those.
+    BeyondCommand beyond;
+    std::string includes;       ///< causes that `beyond` has besides: "Y.scale"
+    Finite rms_sigma = 0.0;     ///< what it does to the readings, rms in their sigma
+    bool holds_between = true;  ///< a free form that predicts places left out
+    std::string since;          ///< a change: the session from which it holds; else empty
+    bool known = true;          ///< false: structure that nothing in the catalogue explains
+    bool written = true;        ///< false: it does not stand in Diagnosis::setup
 };
 
 /// Change of one parameter of the machine from one session to the next.

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "diagnosis/advice/next_measurement.h"
+#include "diagnosis/beyond_command.h"
 #include "diagnosis/causes.h"
 #include "diagnosis/changes.h"
 #include "diagnosis/doubted.h"
@@ -360,7 +361,7 @@ Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options) {
         d.causes.back().written =
             is_written(f.design, written.model, f.design.group(f.model.members[claim.position]));
     }
-    add_scales(f.prepared.catalogue, d.causes);
+    join_of_axis(f.prepared.catalogue, d.causes);
     d.after = held_out(f, written.blocks.before, written.blocks.after);
     widen(d.after, draws.interval_elsewhere(written.model));
     d.after.high = std::max(d.after.high.value(), fitted_shrink(f, written.model));

@@ -48,13 +48,14 @@ Json json_of(const diagnosis::Cause& cause) {
         json["between_places"] = cause.holds_between;
         json["points"] = Json::array();
         for (const diagnosis::TablePoint& p : cause.points) json["points"].push_back(json_of(p));
-        if (const auto data = pitch_error_data(cause)) {
-            json["pitch_error"] = {{"first_mm", data->first_mm},
-                                   {"interval_mm", data->interval_mm},
-                                   {"unit_mm", data->unit_mm},
-                                   {"value", data->value}};
-            if (!cause.includes.empty()) json["pitch_error"]["includes"] = cause.includes;
-        }
+    }
+    if (const auto data = pitch_error_data(cause)) {
+        const std::string end = data->rotary ? "_deg" : "_mm";
+        json["pitch_error"] = {{"first" + end, data->first},
+                               {"interval" + end, data->interval},
+                               {"unit" + end, data->unit},
+                               {"value", data->value}};
+        if (!cause.includes.empty()) json["pitch_error"]["includes"] = cause.includes;
     }
     return json;
 }

@@ -222,6 +222,8 @@ std::string cause_section(const diagnosis::Diagnosis& d, const diagnosis::Cause&
         text += row({escape_xml(v.name), v.value, v.sigma, escape_xml(v.unit)});
     }
     text += "</table></div>\n";
+    if (const std::string data = pitch_error_text(cause); !data.empty())
+        text += "<pre tabindex=\"0\">" + escape_xml(data) + "</pre>\n";
     for (const identification::Inseparable& group : cause.unseen)
         text += "<p class=\"note\">Not observable from these readings: " +
                 escape_xml(to_string(group)) + ".</p>\n";

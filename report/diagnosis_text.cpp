@@ -54,6 +54,8 @@ std::string cause_text(const diagnosis::Diagnosis& d, const diagnosis::Cause& ca
         text += fmt::format("  a table of {} values{}\n{}", cause.points.size(),
                             cause.holds_between ? "" : ": at the measured places only",
                             error_table(cause));
+    else
+        text += pitch_error_text(cause);
     if (!cause.rivals.empty())
         text +=
             paragraph(fmt::format("{}: {}", rivals_words(cause), fmt::join(cause.rivals, ", ")), 2);

@@ -41,17 +41,6 @@ double small_size(const TablePoint& p) {
     return p.unit == "rad" ? 1e6 : 1e3;
 }
 
-/// Linear interpolation between two points; beyond the curve the nearest end.
-double too_far_at(const std::vector<TablePoint>& curve, double at) {
-    const auto after =
-        std::find_if(curve.begin(), curve.end(), [&](const TablePoint& p) { return p.at >= at; });
-    if (after == curve.begin()) return *curve.front().too_far_mm;
-    if (after == curve.end()) return *curve.back().too_far_mm;
-    const TablePoint& before = *std::prev(after);
-    const double part = (at - before.at) / (after->at - before.at);
-    return *before.too_far_mm + part * (*after->too_far_mm - *before.too_far_mm);
-}
-
 /// The sense of an error that counts against its axis.
 std::string against_words(const TablePoint& p) {
     if (!p.against) return {};
@@ -61,31 +50,49 @@ std::string against_words(const TablePoint& p) {
                        direction);
 }
 
-/// A positioning error of a linear axis.
-bool has_pitch(const std::vector<TablePoint>& curve) {
-    return curve.front().too_far_mm && curve.size() > 1;
+/// Linear interpolation between two places.
+double too_far_at(const diagnosis::BeyondCommand& beyond, double at) {
+    const auto after =
+        std::find_if(beyond.at.begin() + 1, beyond.at.end() - 1, [&](double q) { return q >= at; });
+    const auto k = static_cast<std::size_t>(after - beyond.at.begin());
+    const double part = (at - beyond.at[k - 1]) / (beyond.at[k] - beyond.at[k - 1]);
+    return beyond.too_far[k - 1] +
+           std::clamp(part, 0.0, 1.0) * (beyond.too_far[k] - beyond.too_far[k - 1]);
 }
 
 }  // namespace
 
-std::optional<PitchErrorData> pitch_error_data(const diagnosis::Cause& cause, double unit_mm) {
-    if (!cause.holds_between) return std::nullopt;
-    for (const std::vector<TablePoint>& curve : by_error(cause)) {
-        if (!has_pitch(curve)) continue;
-        const double range = curve.back().at - curve.front().at;
-        PitchErrorData data{
-            curve.front().at, range / static_cast<double>(curve.size() - 1), unit_mm, {}};
-        long sum = 0;
-        for (std::size_t k = 1; k < curve.size(); ++k) {
-            const double at = data.first_mm + data.interval_mm * static_cast<double>(k);
-            const double whole = -(too_far_at(curve, at) - *curve.front().too_far_mm) / unit_mm;
-            const long next = std::lround(whole);
-            data.value.push_back(static_cast<int>(next - sum));
-            sum = next;
-        }
-        return data;
+std::optional<PitchErrorData> pitch_error_data(const diagnosis::Cause& cause, double unit) {
+    const diagnosis::BeyondCommand& beyond = cause.beyond;
+    if (!cause.holds_between || beyond.at.size() < 2) return std::nullopt;
+    const double first = beyond.at.front(),
+                 interval = (beyond.at.back() - first) / static_cast<double>(beyond.at.size() - 1);
+    const double of_one = beyond.rotary ? rad_from_deg(1.0) : 1.0;
+    PitchErrorData data{beyond.rotary, first / of_one, interval / of_one, unit, {}};
+    long sum = 0;
+    for (std::size_t k = 1; k < beyond.at.size(); ++k) {
+        const double at = first + interval * static_cast<double>(k);
+        const double whole = -(too_far_at(beyond, at) - beyond.too_far.front()) / (unit * of_one);
+        const long next = std::lround(whole);
+        data.value.push_back(static_cast<int>(next - sum));
+        sum = next;
     }
-    return std::nullopt;
+    return data;
+}
+
+std::string pitch_error_text(const diagnosis::Cause& cause) {
+    if (cause.beyond.at.empty()) return "";
+    if (!cause.holds_between)
+        return "  no pitch error data: a control interpolates, and between its places the table\n"
+               "  does not hold\n";
+    const auto data = pitch_error_data(cause);
+    if (!data) return "";
+    return fmt::format(
+        "  pitch error data{0}, from {1:.4f} {4} every {2:.4f} {4},\n"
+        "  in {3:.4f} {4} (incremental; assumed):\n"
+        "  {5}\n",
+        cause.includes.empty() ? "" : " (" + cause.includes + " included)", data->first,
+        data->interval, data->unit, data->rotary ? "deg" : "mm", fmt::join(data->value, " "));
 }
 
 std::string error_table(const diagnosis::Cause& cause) {
@@ -100,20 +107,7 @@ std::string error_table(const diagnosis::Cause& cause) {
                 fmt::format("  {:>12.4f} {:>10} {:>8}\n", place_of(p), shown.value, shown.sigma);
         }
     }
-    const auto curves = by_error(cause);
-    if (!cause.holds_between && std::any_of(curves.begin(), curves.end(), has_pitch))
-        return text +
-               "  no pitch error data: a control interpolates, and between its places the table\n"
-               "  does not hold\n";
-    const auto data = pitch_error_data(cause);
-    if (!data) return text;
-    text += fmt::format(
-        "  pitch error data{}, from {:.4f} mm every {:.4f} mm,\n"
-        "  in {:.4f} mm (incremental; assumed):\n"
-        "  {}\n",
-        cause.includes.empty() ? "" : " (" + cause.includes + " included)", data->first_mm,
-        data->interval_mm, data->unit_mm, fmt::join(data->value, " "));
-    return text;
+    return text + pitch_error_text(cause);
 }
 
 std::string error_curves(const diagnosis::Cause& cause) {

@@ -1,8 +1,11 @@
 // Pitch error data as printed, typed into a control and measured again: the error is gone, whatever
 // carries the axis and whatever else of its scale was found beside the table.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numeric>
 
+#include "base/units.h"
 #include "diagnosis/diagnosis.h"
 #include "report/error_table.h"
 #include "tests/support/campaign.h"
@@ -97,16 +100,96 @@ TEST_CASE("pitch error data typed as printed take the error of the axis away",
                 if (!data) data = report::pitch_error_data(cause);
             REQUIRE(data);
             const auto typed = [&](double y_mm) {
-                const double place = (y_mm - data->first_mm) / data->interval_mm;
+                const double place = (y_mm - data->first) / data->interval;
                 double sum = 0.0;
                 for (std::size_t k = 0; k < data->value.size(); ++k)
                     sum += data->value[k] * std::clamp(place - static_cast<double>(k), 0.0, 1.0);
-                return data->unit_mm * sum;
+                return data->unit * sum;
             };
             CHECK(rms_um(before) > 3.0);
             // A twentieth of the gap is a scale that is listed, not claimed, where ppm is 0.
             CHECK(rms_um(read(ppm, typed, 4)) < (ppm > 0.0 ? 0.5 : 1.2));
         }
+}
+
+namespace {
+
+/// B goes too far by two harmonics of its turn, rad, and with `more` by higher ones.
+double turn_error_rad(double b_rad, double more) {
+    return 150e-6 * std::cos(b_rad) + 300e-6 * std::sin(3.0 * b_rad + 0.4) +
+           more * (60e-6 * std::sin(4.0 * b_rad) + 50e-6 * std::cos(5.0 * b_rad + 1.0));
+}
+
+/// What an autocollimator reads of B, of a control that adds `added_rad` to the command. `tool`:
+/// sense of + B, about Y, of the tool against the work.
+template <typename Added>
+records::ReadingTable turned(double tool, double more, Added added_rad, std::uint64_t seed) {
+    SeededNoise noise(seed);
+    records::ReadingTable table;
+    table.path = "angles.csv";
+    table.axes = {Axis::X, Axis::Y, Axis::Z, Axis::B};
+    table.side_before.fill(1);
+    for (int pass = 0; pass < 5; ++pass)
+        for (int k = 0; k <= 47; ++k) {
+            records::Reading row;
+            const double b_rad = rad_from_deg(7.5 * k), sent_rad = b_rad + added_rad(b_rad);
+            row.index = static_cast<int>(table.rows.size());
+            row.time_s = 10.0 * row.index;
+            row.commanded[Axis::B] = b_rad;
+            row.test = "B";
+            row.device = records::Device::angle;
+            row.angular = true;
+            row.feature = "R1";
+            row.direction_M = Vector3(0.0, 1.0, 0.0);
+            row.value_mm =
+                tool * (sent_rad + turn_error_rad(sent_rad, more) - b_rad) + 2e-6 * noise.normal();
+            table.rows.push_back(row);
+        }
+    return table;
+}
+
+}  // namespace
+
+TEST_CASE("pitch error data of a rotary axis take its error away, and add up to zero in a turn",
+          "[diagnosis][pitch_data]") {
+    struct Build {
+        const char *chain, *direction;
+        double tool;
+    };
+    const double more = GENERATE(0.0, 1.0);
+    for (const Build& build :
+         {Build{"w B b X Y Z t", "[0, 1, 0]", -1.0}, Build{"w B b X Y Z t", "[0, -1, 0]", 1.0},
+          Build{"w b X Y Z B t", "[0, 1, 0]", 1.0}, Build{"w b X Y Z B t", "[0, -1, 0]", -1.0}}) {
+        std::vector<std::string> notes;
+        const setup::Setup setup = setup::parse_setup(
+            std::string("[machine]\nname = \"m\"\nchain = \"") + build.chain +
+                "\"\n[machine.axis.B]\npoint_mm = [0, 0, 0]\ndirection = " + build.direction +
+                "\n[[artefact]]\nname = \"R1\"\nkind = \"target\"\ntool_mm = [0, 0, 0]\n"
+                "[model]\nmodelled = []\n",
+            "m.toml", notes);
+        const records::ReadingTable before = turned(
+            build.tool, more, [](double) { return 0.0; }, 3);
+        diagnosis::DiagnosisOptions options;
+        options.plan_next = false;
+        const diagnosis::Diagnosis d = diagnosis::diagnose(setup, before, options);
+        INFO(build.chain << ' ' << build.direction << '\n' << said(d));
+        std::optional<report::PitchErrorData> data;
+        for (const diagnosis::Cause& cause : d.causes)
+            if (!data) data = report::pitch_error_data(cause);
+        REQUIRE(data);
+        CHECK(data->rotary);
+        CHECK(std::accumulate(data->value.begin(), data->value.end(), 0) == 0);
+        const auto typed = [&](double b_rad) {
+            const double place = (deg_from_rad(b_rad) - data->first) / data->interval;
+            double sum = 0.0;
+            for (std::size_t k = 0; k < data->value.size(); ++k)
+                sum += data->value[k] * std::clamp(place - static_cast<double>(k), 0.0, 1.0);
+            return rad_from_deg(data->unit * sum);
+        };
+        // Half a unit of 0.001 deg (17 urad), and the chord of the third harmonic over 10 deg.
+        CHECK(1e3 * rms_um(before) > 200.0);
+        CHECK(1e3 * rms_um(turned(build.tool, more, typed, 4)) < 12.0);
+    }
 }
 
 }  // namespace trunnion

@@ -14,7 +14,11 @@ diagnosis::Cause waved(bool travel) {
         const double at = -200.0 + 20.0 * k;
         const double error_mm = 0.006 * std::sin(at / 40.0);
         cause.points.push_back({"EXX", at, error_mm, 2e-4, "mm", "mm"});
-        if (travel) cause.points.back().too_far_mm = error_mm;
+        if (travel) {
+            cause.beyond.axis = "X";
+            cause.beyond.at.push_back(at);
+            cause.beyond.too_far.push_back(error_mm);
+        }
     }
     return cause;
 }
@@ -25,14 +29,14 @@ TEST_CASE("pitch error data take the error away within half a unit at every plac
     const diagnosis::Cause cause = waved(true);
     const auto data = report::pitch_error_data(cause);
     REQUIRE(data);
-    CHECK(data->first_mm == -200.0);
-    CHECK(data->interval_mm == Approx(20.0));
+    CHECK(data->first == -200.0);
+    CHECK(data->interval == Approx(20.0));
     REQUIRE(data->value.size() == 20);
     double added = 0.0;
     for (std::size_t k = 0; k < data->value.size(); ++k) {
-        added += data->unit_mm * data->value[k];
+        added += data->unit * data->value[k];
         const double rest = cause.points[k + 1].value - cause.points[0].value + added;
-        CHECK(std::abs(rest) <= 0.5 * data->unit_mm + 1e-12);
+        CHECK(std::abs(rest) <= 0.5 * data->unit + 1e-12);
     }
     CHECK_FALSE(report::pitch_error_data(waved(false)));
     CHECK_FALSE(report::pitch_error_data({}));

@@ -1,0 +1,123 @@
+#include "diagnosis/beyond_command.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/units.h"
+#include "diagnosis/rules/rules.h"
+#include "diagnosis/search/solution.h"
+#include "estimation/free_form.h"
+
+namespace trunnion::diagnosis {
+namespace {
+
+/// The first place of a turn again at its end, if that is the next one in the row.
+void close_turn(BeyondCommand& beyond) {
+    constexpr double near = 1e-6;
+    const double step =
+        (beyond.at.back() - beyond.at.front()) / static_cast<double>(beyond.at.size() - 1);
+    const double end = beyond.at.front() + 2.0 * pi;
+    if (!beyond.rotary || std::abs(beyond.at.back() + step - end) > near) return;
+    beyond.at.push_back(end);
+    beyond.too_far.push_back(beyond.too_far.front());
+}
+
+/// Linear interpolation; beyond the ends the nearest value.
+double too_far_at(const BeyondCommand& beyond, double at) {
+    const double inside = std::clamp(at, beyond.at.front(), beyond.at.back());
+    const auto [place, weight] = estimation::place_between(beyond.at, inside);
+    const auto k = static_cast<std::size_t>(place);
+    return (1.0 - weight) * beyond.too_far[k] + weight * beyond.too_far[k + 1];
+}
+
+/// Adds another one at the places of both.
+void add(BeyondCommand& beyond, const BeyondCommand& other) {
+    std::vector<double> at;
+    std::merge(beyond.at.begin(), beyond.at.end(), other.at.begin(), other.at.end(),
+               std::back_inserter(at));
+    const double near = 1e-9 * (at.back() - at.front());
+    at.erase(std::unique(at.begin(), at.end(), [&](double a, double b) { return b - a <= near; }),
+             at.end());
+    std::vector<double> too_far;
+    for (const double q : at) too_far.push_back(too_far_at(beyond, q) + too_far_at(other, q));
+    beyond.at = std::move(at);
+    beyond.too_far = std::move(too_far);
+}
+
+/// Adds the textbook form of the positioning of the axis; false if it is none.
+bool add(BeyondCommand& beyond, const effects::Catalogue& catalogue, const Cause& cause) {
+    const effects::Effect* effect = effects::find_effect(catalogue, cause.effect);
+    if (!effect || !cause.points.empty() || !cause.since.empty() ||
+        effect->parameters.size() != cause.parameters.size() ||
+        cause.effect.substr(0, cause.effect.find('.')) != beyond.axis ||
+        (effect->kind != effects::EffectKind::scale &&
+         effect->kind != effects::EffectKind::positioning))
+        return false;
+    std::vector<double> values;
+    for (const identification::FitParameter& p : cause.parameters) values.push_back(p.value);
+    for (std::size_t k = 0; k < beyond.at.size(); ++k) {
+        AxisSample sample;
+        sample.position[*effect->axis] = beyond.at[k];
+        kinematics::Perturbation out;
+        effect->add(sample, {}, values, out);
+        beyond.too_far[k] += out.axis[*effect->axis];
+    }
+    return true;
+}
+
+bool tells(const Cause& cause) {
+    return !cause.beyond.at.empty() && cause.holds_between;
+}
+
+void add_others(const effects::Catalogue& catalogue, std::vector<Cause>& causes, Cause& first) {
+    for (Cause& other : causes) {
+        if (&other == &first || other.probability < rules::claimed) continue;
+        const bool form = tells(other) && other.beyond.axis == first.beyond.axis &&
+                          first.probability >= rules::claimed;
+        if (form)
+            add(first.beyond, other.beyond);
+        else if (!add(first.beyond, catalogue, other))
+            continue;
+        if (form) other.beyond = {};
+        first.includes += (first.includes.empty() ? "" : ", ") + other.effect;
+    }
+}
+
+}  // namespace
+
+BeyondCommand beyond_command(const ColumnGroup& group, const Eigen::VectorXd& coefficients) {
+    const TableForm& table = group.table;
+    const int main = effects::main_direction(table.axis);
+    const int along = table.axis.rotary ? main + 3 : main;
+    const auto found = std::find(table.directions.begin(), table.directions.end(), along);
+    if (table.play || group.kind != GroupKind::table || found == table.directions.end() ||
+        table.motion != effects::EffectKind::positioning)
+        return {};
+    const Eigen::Index each = table.per_direction();
+    const Eigen::VectorXd value =
+        table.axis.direction(main) *
+        table_values(group, coefficients)
+            .segment(each * static_cast<Eigen::Index>(found - table.directions.begin()), each);
+    BeyondCommand beyond{table.axis.name, table.axis.rotary, table.knots, {}};
+    if (!table.knots.empty()) beyond.too_far.assign(value.begin(), value.end());
+    const int last = table.first_order + table.orders - 1, places = last <= 24 ? 36 : 3 * last;
+    for (int j = 0; j < places && table.knots.empty(); ++j) {
+        const double q = 2.0 * pi * j / places;
+        double sum = 0.0;
+        for (int n = 0; n < table.orders; ++n)
+            sum += value(2 * n) * std::cos((table.first_order + n) * q) +
+                   value(2 * n + 1) * std::sin((table.first_order + n) * q);
+        beyond.at.push_back(q);
+        beyond.too_far.push_back(sum);
+    }
+    if (beyond.at.size() < 2) return {};
+    close_turn(beyond);
+    return beyond;
+}
+
+void join_of_axis(const effects::Catalogue& catalogue, std::vector<Cause>& causes) {
+    for (Cause& cause : causes)
+        if (tells(cause)) add_others(catalogue, causes, cause);
+}
+
+}  // namespace trunnion::diagnosis
