@@ -14,6 +14,7 @@
 #include "diagnosis/prepare/outliers.h"
 #include "diagnosis/prepare/spoiled_readings.h"
 #include "diagnosis/prepare/thinning.h"
+#include "diagnosis/prepare/unrepeated_readings.h"
 #include "diagnosis/round.h"
 #include "diagnosis/rules/rules.h"
 #include "diagnosis/search/solution.h"
@@ -194,6 +195,7 @@ Diagnosis answer_of(const setup::Setup& setup, const records::ReadingTable& tabl
     Round round{all, {}, p.base.sigma_mm, options.over_sessions};
     round.noise = belief_of(p, p.base.residual_mm, round);
     leave_out(p, lone_probe_readings(p, round.used), round);
+    leave_out(p, unrepeated_readings(p, round.used), round);
     take_promising_sides(p);
     std::optional<KeySearch> keys(std::in_place, p.replay, p.base);
     watch("search among models");

@@ -4,22 +4,18 @@
 #include <cmath>
 #include <nlopt.hpp>
 #include <set>
-#include <tuple>
+#include <utility>
 
+#include "diagnosis/prepare/cycle_zeros.h"
 #include "diagnosis/prepare/noise.h"
+#include "diagnosis/prepare/repeats.h"
+#include "diagnosis/prepare/spoiled_readings.h"
 #include "estimation/projection.h"
 #include "estimation/quantiles.h"
+#include "estimation/scatter.h"
 
 namespace trunnion::diagnosis {
 namespace {
-
-/// A sequence of values with the noise model of one device, in units of sigma, and the rows whose
-/// directions define the shared part.
-struct Stretch {
-    std::vector<Eigen::Index> rows;
-    Eigen::Index before = 0;  ///< the row that the first one repeats
-    Eigen::VectorXd value;
-};
 
 double touch_likelihood(const emulator::Replay& replay, const Stretch& s,
                         const DeviceNoise& noise) {
@@ -149,95 +145,15 @@ DeviceNoise estimate(const emulator::Replay& replay, records::Device device,
     return best;
 }
 
-/// Key of repeats: device rows with equal keys repeat each other in different passes of one
-/// session. What differs between sessions may be the machine, not its noise.
-using Key = std::tuple<std::size_t, int, int, int, std::vector<long>, std::vector<int>>;
-
-Key key_of(const emulator::Replay& replay, const records::ReadingTable& table, std::size_t i) {
-    const emulator::Contact& contact = replay.contact(i);
-    const AxisSample& sample = replay.sample(i);
-    std::vector<long> place;
-    std::vector<int> travel;
-    for (const Axis axis : table.axes) {
-        place.push_back(std::lround(sample.position[axis] * 1e5));
-        if (table.names.is_rotary(axis) || contact.device == records::Device::ballbar ||
-            reads_targets(contact.device))
-            travel.push_back(sample.travel[index_of(axis)]);
-    }
-    if (contact.device != records::Device::ballbar)
-        for (int d = 0; d < 3; ++d) place.push_back(std::lround(contact.direction_M(d) * 1e3));
-    place.push_back(std::lround(sample.feed_mm_min));
-    place.push_back(std::lround(sample.load_kg * 10.0));
-    place.push_back(std::lround(sample.spindle_rad * 100.0));
-    place.push_back(sample.clamped ? 1 : 0);
-    return {replay.session(i),
-            static_cast<int>(contact.device),
-            contact.artefact,
-            static_cast<int>(sample.mode),
-            place,
-            travel};
-}
-
-/// Rows that are compared as a whole: the blocks; at targets single readings of those used, each
-/// with the last one at the same target from the same side.
-std::vector<NoiseBlock> compared_rows(const std::vector<NoiseBlock>& blocks,
-                                      const std::vector<bool>& used) {
-    std::vector<NoiseBlock> list;
-    for (const NoiseBlock& block : blocks) {
-        if (!reads_targets(block.device)) {
-            list.push_back(block);
-            continue;
-        }
-        for (const Eigen::Index row : block.rows)
-            if (used[static_cast<std::size_t>(row)]) list.push_back({block.device, {row}});
-    }
-    return list;
-}
-
-/// Time that a pass takes; 0 of readings taken at rest.
-double duration_s(const emulator::Replay& replay, const NoiseBlock& block) {
-    if (block.device != records::Device::ballbar && block.device != records::Device::axis)
-        return 0.0;
-    const auto time_s = [&](Eigen::Index row) {
-        return replay.sample(static_cast<std::size_t>(row)).time_s;
-    };
-    return time_s(block.rows.back()) - time_s(block.rows.front());
-}
-
-/// Pairs of blocks that repeat each other row by row. Passes over the same path at different speeds
-/// are none, also where no column tells the feed: lags and reversals do differ.
-std::vector<std::pair<std::size_t, std::size_t>> repeated_blocks(
-    const emulator::Replay& replay, const records::ReadingTable& table,
-    const std::vector<NoiseBlock>& blocks) {
-    constexpr double alike = 0.1;  // in proportion, assumed
-    std::map<std::vector<Key>, std::vector<std::size_t>> seen;
-    std::vector<std::pair<std::size_t, std::size_t>> pairs;
-    for (std::size_t b = 0; b < blocks.size(); ++b) {
-        std::vector<Key> keys;
-        for (const Eigen::Index i : blocks[b].rows)
-            keys.push_back(key_of(replay, table, static_cast<std::size_t>(i)));
-        std::vector<std::size_t>& last = seen[std::move(keys)];  // one for each speed
-        const double own_s = duration_s(replay, blocks[b]);
-        const auto repeated = std::find_if(last.begin(), last.end(), [&](std::size_t other) {
-            const double other_s = duration_s(replay, blocks[other]);
-            return std::abs(own_s - other_s) <= alike * std::max(own_s, other_s);
-        });
-        if (repeated == last.end()) {
-            last.push_back(b);
-            continue;
-        }
-        pairs.emplace_back(*repeated, b);
-        *repeated = b;
-    }
-    return pairs;
-}
-
-/// Robust size of the differences, at least 1. What is stated of a device is its resolution or its
-/// accuracy; what repeats differ by is known from them alone.
-double typical_size(const std::vector<Stretch>& stretches) {
+std::vector<double> values_of(const std::vector<Stretch>& stretches) {
     std::vector<double> all;
     for (const Stretch& s : stretches) all.insert(all.end(), s.value.begin(), s.value.end());
-    return std::max(1.0, estimation::robust_deviation(std::move(all)));
+    return all;
+}
+
+/// Robust size of the differences, at least `least`.
+double typical_size(const std::vector<Stretch>& stretches, double least) {
+    return std::max(least, estimation::robust_deviation(values_of(stretches)));
 }
 
 constexpr double farthest = 6.0;  ///< of the typical difference: an outlier, which must not
@@ -245,9 +161,9 @@ constexpr double farthest = 6.0;  ///< of the typical difference: an outlier, wh
 
 /// Removes the effect of a shift of the machine that grows with time from the differences of rows
 /// that are no passes. Outliers take no part in it.
-void remove_shift(const emulator::Replay& replay, std::vector<Stretch>& stretches) {
+void remove_shift(const emulator::Replay& replay, double least, std::vector<Stretch>& stretches) {
     constexpr int p = 6;  // a shift, and one that grows with time
-    const double most = farthest * typical_size(stretches);
+    const double most = farthest * typical_size(stretches, least);
     std::vector<double*> values;
     std::vector<std::size_t> rows;
     for (Stretch& s : stretches)
@@ -272,26 +188,6 @@ void remove_shift(const emulator::Replay& replay, std::vector<Stretch>& stretche
     for (Eigen::Index k = 0; k < n; ++k) *values[static_cast<std::size_t>(k)] = left(k);
 }
 
-/// Removes from the differences between two cycles of a laser test their median: the zero of a
-/// cycle may differ from that of the one before. Few differences between two cycles keep it.
-void remove_zeros_of_cycles(const std::vector<Eigen::Index>& cycle, std::vector<Stretch>& list) {
-    constexpr std::size_t fewest_of_cycle = 5;
-    std::map<std::pair<Eigen::Index, Eigen::Index>, std::vector<double*>> between;
-    for (Stretch& s : list)
-        between[{cycle[static_cast<std::size_t>(s.before)],
-                 cycle[static_cast<std::size_t>(s.rows.front())]}]
-            .push_back(&s.value(0));
-    for (auto& [cycles, values] : between) {
-        const std::size_t n = values.size();
-        if (cycles.first == cycles.second || n < fewest_of_cycle) continue;
-        std::vector<double> all;
-        for (const double* value : values) all.push_back(*value);
-        const double zero = estimation::median(std::move(all));
-        const double free = std::sqrt(static_cast<double>(n) / static_cast<double>(n - 1));
-        for (double* value : values) *value = (*value - zero) * free;
-    }
-}
-
 /// The part of the deviation of typical rows of a device that is due to their last digit.
 double rounding_of(const RepeatedRows& rows, const Eigen::VectorXd& sigma_mm,
                    records::Device device) {
@@ -303,30 +199,28 @@ double rounding_of(const RepeatedRows& rows, const Eigen::VectorXd& sigma_mm,
     return part.empty() ? 0.0 : estimation::median(std::move(part));
 }
 
-/// Differences of rows that repeat each other, by device.
-std::map<records::Device, std::vector<Stretch>> differences_of(
-    const RepeatedRows& rows, const std::vector<NoiseBlock>& blocks,
-    const Eigen::VectorXd& residual_mm, const Eigen::VectorXd& sigma_mm) {
-    std::map<records::Device, std::vector<Stretch>> stretches;
-    for (const auto& [first, second] : repeated_blocks(rows.replay, rows.table, blocks)) {
-        Stretch s;
+/// Takes spoiled differences out of readings that are taken one by one. Returns the deviation of
+/// the others.
+double without_spoiled(double least, std::vector<Stretch>& list) {
+    const estimation::Scatter scatter = estimation::scatter_of(values_of(list), least);
+    std::size_t at = 0;
+    for (Stretch& s : list) {
+        std::vector<Eigen::Index> rows;
         std::vector<double> values;
-        for (std::size_t k = 0; k < blocks[second].rows.size(); ++k) {
-            const Eigen::Index a = blocks[first].rows[k], b = blocks[second].rows[k];
-            if (!rows.used[static_cast<std::size_t>(a)] || !rows.used[static_cast<std::size_t>(b)])
-                continue;
-            if (s.rows.empty()) s.before = a;
-            s.rows.push_back(b);
-            values.push_back((residual_mm(b) - residual_mm(a)) /
-                             std::hypot(sigma_mm(a), sigma_mm(b)));
+        for (std::size_t k = 0; k < s.rows.size(); ++k) {
+            if (!scatter.kept[at++]) continue;
+            rows.push_back(s.rows[k]);
+            values.push_back(s.value(static_cast<Eigen::Index>(k)));
         }
-        if (values.empty()) continue;
+        s.rows = std::move(rows);
         s.value = Eigen::Map<const Eigen::VectorXd>(values.data(),
                                                     static_cast<Eigen::Index>(values.size()));
-        stretches[blocks[second].device].push_back(std::move(s));
     }
-    return stretches;
+    std::erase_if(list, [](const Stretch& s) { return s.rows.empty(); });
+    return scatter.deviation;
 }
+
+constexpr double least_of_stated = 0.05;  ///< less is arithmetic
 
 /// Fewer differences say no more than what is stated or usual.
 std::size_t fewest(records::Device device) {
@@ -334,6 +228,11 @@ std::size_t fewest(records::Device device) {
 }
 
 }  // namespace
+
+double least_scatter(const RepeatedRows& rows, const Eigen::VectorXd& sigma_mm,
+                     records::Device device) {
+    return std::max(least_of_stated, rounding_of(rows, sigma_mm, device));
+}
 
 double least_by_rounding(const RepeatedRows& rows, const Eigen::VectorXd& sigma_mm,
                          const NoiseModel& noise) {
@@ -343,6 +242,18 @@ double least_by_rounding(const RepeatedRows& rows, const Eigen::VectorXd& sigma_
     for (const records::Device device : present)
         least = std::min(least, rounding_of(rows, sigma_mm, device) / noise.of(device).scale);
     return least;
+}
+
+std::vector<Eigen::Index> cycles_between_jumps(const RepeatedRows& rows,
+                                               const Eigen::VectorXd& residual_mm,
+                                               const Eigen::VectorXd& sigma_mm) {
+    if (rows.cycle.empty()) return {};
+    const auto differences =
+        differences_of(rows, compared_rows(rows.blocks, rows.used), residual_mm, sigma_mm);
+    std::vector<Eigen::Index> cycle = rows.cycle;
+    for (const auto& [device, list] : differences)
+        cycle = split_at_jumps(cycle, sigma_mm, least_scatter(rows, sigma_mm, device), list);
+    return cycle;
 }
 
 NoiseModel noise_from_repeats(const RepeatedRows& rows, const Eigen::VectorXd& residual_mm,
@@ -361,16 +272,25 @@ NoiseModel noise_from_repeats(const RepeatedRows& rows, const Eigen::VectorXd& r
             all = false;
             continue;
         }
+        // What is stated of a device is its resolution or its accuracy; what repeats differ by is
+        // known from them alone. A ballbar or a log is one course, and the lines of a laser along
+        // several axes have zeros that nothing takes off: their size is told as a whole.
+        const bool lines = reads_targets(device) && rows.cycle.empty();
+        const bool single = is_single(device) && !lines;
+        const double digit = rounding_of(rows, sigma_mm, device);
+        const double least = single ? least_scatter(rows, sigma_mm, device) : 1.0;
         if (!rows.cycle.empty())
-            remove_zeros_of_cycles(rows.cycle, list);
+            remove_zeros_of_cycles(rows.cycle, sigma_mm, least, list);
         else if (device != records::Device::ballbar)
-            remove_shift(rows.replay, list);
-        const double usual = typical_size(list);
+            remove_shift(rows.replay, least, list);
+        double usual = single ? without_spoiled(least, list) : typical_size(list, least);
+        usual = std::max(least, usual);
         for (Stretch& s : list)
             s.value = s.value.cwiseMax(-farthest * usual).cwiseMin(farthest * usual);
-        noise.of(device) = estimate(rows.replay, device, list, 0.05 * usual, 4.0 * usual);
-        noise.of(device).scale =
-            std::max(noise.of(device).scale, rounding_of(rows, sigma_mm, device));
+        noise.of(device) = estimate(rows.replay, device, list,
+                                    least_of_stated * std::max(1.0, usual), 4.0 * usual);
+        count = values_of(list).size();
+        noise.of(device).scale = std::max(noise.of(device).scale, digit);
         const double independent = noise.of(device).independent(static_cast<double>(count));
         noise.doubt = std::max(noise.doubt, std::sqrt(2.0 / independent));
     }

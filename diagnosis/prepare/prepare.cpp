@@ -13,6 +13,7 @@
 #include "diagnosis/prepare/cycles.h"
 #include "diagnosis/prepare/holdout_zeros.h"
 #include "diagnosis/prepare/jumps.h"
+#include "diagnosis/prepare/repeats.h"
 #include "diagnosis/prepare/target_visits.h"
 #include "identification/index_errors.h"
 #include "identification/plausible.h"
@@ -180,8 +181,11 @@ Prepared::Prepared(const setup::Setup& setup, const records::ReadingTable& readi
     open_sides = sides_to_find(replay, sides);
     base = identification::fit_base(setup, table, replay, catalogue, setup.model.modelled);
     blocks = noise_blocks(replay, table);
-    cycle = cycles_of(replay, table);
     rounding_mm = identification::rounding(table, replay);
+    const std::vector<Eigen::Index> cycles = cycles_of(replay, table);
+    const std::vector<bool> all(replay.size(), true);
+    cycle = cycles_between_jumps({replay, table, blocks, all, cycles, rounding_mm},
+                                 base.residual_mm, base.sigma_mm);
     folds = make_folds(blocks, replay.size());
     spread_visits(blocks, replay, table, folds);
     join_targets(blocks, replay, table, folds);
