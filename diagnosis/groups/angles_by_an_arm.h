@@ -9,7 +9,9 @@ namespace trunnion::diagnosis {
 /// positioning, straightness, squareness): they have half the prior. Each turn is asked by itself:
 /// on a plate at one height the yaw is seen through many arms, roll and pitch through one. Each of
 /// those then becomes a form of its own, because two of them do the work of a scale and of a
-/// squareness, and the others are another form. Call it when the textbook groups are in the design.
+/// squareness, and the others are another form. Turns that the readings tell are one form together.
+/// Angles of several axes that do the same share the prior of one. Call it when the textbook groups
+/// are in the design.
 void favour_motions_over_angles(Design& design);
 
 }  // namespace trunnion::diagnosis

@@ -142,9 +142,11 @@ bool named(GroupKind kind) {
 }
 
 /// Named effects in place of a pair of members: two effects together may imitate a third one. Only
-/// in small models, because the time grows with the square of the members.
+/// where few are named, because the time grows with their square.
 Model joined(Design& design, const SearchSetting& setting, Model model) {
-    if (model.members.size() > pairs_up_to) return model;
+    const auto count = std::count_if(model.members.begin(), model.members.end(),
+                                     [&](auto m) { return named(design.group(m).kind); });
+    if (count > static_cast<std::ptrdiff_t>(pairs_up_to)) return model;
     for (std::size_t second = 1; second < model.members.size() && !setting.stopped(); ++second)
         for (std::size_t first = 0; first < second && second < model.members.size(); ++first) {
             if (!named(design.group(model.members[first]).kind) ||
