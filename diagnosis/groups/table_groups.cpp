@@ -154,24 +154,29 @@ std::vector<Shape> shapes_of_turn(const Prepared& p, const TableForm& table) {
     return shapes;
 }
 
-/// True when the readings see the play from both sides on most of the range; elsewhere it cannot
-/// be told from positioning.
-bool sees_both_sides(const Prepared& p, const Family& family, const TableForm& table) {
-    const std::vector<double> knots =
-        table.knots.empty() ? estimation::knots_of(places_of(p, table.axis.axis), family.knots)
-                            : table.knots;
-    std::vector<int> sides(knots.size(), 0);
+/// The places at which readings see the play from both sides, if these are most of them; where most
+/// were visited again, from each side twice: one spoiled reading must not make a play. Elsewhere it
+/// cannot be told from positioning, and is that of the nearest such places.
+std::vector<double> places_of_play(const Prepared& p, const TableForm& table,
+                                   const std::vector<double>& places) {
+    std::vector<int> forward(places.size(), 0), back(places.size(), 0);
     const Eigen::VectorXd column = identification::effect_column(
         p.replay, p.base.gradient, {*table.play, table.play->zeros(), 0});
     for (std::size_t i = 0; i < p.replay.size(); ++i) {
         const int travel = p.replay.sample(i).travel[index_of(table.axis.axis)];
         if (travel == 0 || column(static_cast<Eigen::Index>(i)) == 0.0) continue;
-        const auto [knot, weight] =
-            estimation::place_between(knots, p.replay.sample(i).position[table.axis.axis]);
-        sides[static_cast<std::size_t>(knot) + (weight > 0.5 ? 1 : 0)] |= travel > 0 ? 1 : 2;
+        const auto [place, weight] =
+            estimation::place_between(places, p.replay.sample(i).position[table.axis.axis]);
+        ++(travel > 0 ? forward : back)[static_cast<std::size_t>(place) + (weight > 0.5 ? 1 : 0)];
     }
-    const auto both = std::count(sides.begin(), sides.end(), 3);
-    return both >= 4 && 2 * static_cast<std::size_t>(both) >= sides.size();
+    const auto seen_from_both = [&](int times) {
+        std::vector<double> list;
+        for (std::size_t k = 0; k < places.size(); ++k)
+            if (std::min(forward[k], back[k]) >= times) list.push_back(places[k]);
+        return list.size() >= 4 && 2 * list.size() >= places.size() ? list : std::vector<double>{};
+    };
+    const std::vector<double> twice = seen_from_both(2);
+    return twice.empty() ? seen_from_both(1) : twice;
 }
 
 /// The targets of a laser or an autocollimator, if they were visited again; else none. Other
@@ -289,7 +294,13 @@ void add_family(Design& design, const Prepared& p, const Whitener& whitener, con
     if (table.orders <= 0 && table.knots.size() < least_knots(family)) return;
     if (family.motion == EffectKind::backlash) {
         table.play = effects::find_effect(p.catalogue, family.motion, axis.axis);
-        if (!table.play || !sees_both_sides(p, family, table)) return;
+        if (!table.play) return;
+        const std::vector<double> places =
+            table.knots.empty() ? estimation::knots_of(places_of(p, axis.axis), family.knots)
+                                : table.knots;
+        const std::vector<double> both = places_of_play(p, table, places);
+        if (both.empty()) return;
+        if (!table.knots.empty()) table.knots = both;
     }
     add_table(design, p, whitener, family, table);
     if (table.orders == 0 || family.motion != EffectKind::positioning) return;

@@ -113,6 +113,34 @@ TEST_CASE("the same play everywhere is no table", "[diagnosis]") {
     }
 }
 
+TEST_CASE("a play is told only where the axis was read from both sides", "[diagnosis]") {
+    const GapOverPlace gap_mm = [](double at_mm) {
+        return 10e-3 * std::exp(-std::pow((at_mm - 200.0) / 70.0, 2));
+    };
+    records::ReadingTable table = laser(gap_mm, 1);
+    const auto comes_back = [&](std::size_t i) {
+        return i > 0 && table.rows[i - 1].commanded[Axis::X] > table.rows[i].commanded[Axis::X];
+    };
+    // On the way back the last place was read once, with a lost count, and the one before never.
+    int at_end = 0;
+    for (std::size_t i = table.rows.size(); i-- > 0;) {
+        records::Reading& row = table.rows[i];
+        if (!row.value_mm || !comes_back(i) || row.commanded[Axis::X] > 20.0) continue;
+        if (row.commanded[Axis::X] == 0.0 && ++at_end == 3) {
+            *row.value_mm -= 0.02;
+        } else {
+            row.device = records::Device::none;
+            row.value_mm.reset();
+        }
+    }
+    const auto d = diagnosed(table);
+    INFO(said(d));
+    const diagnosis::Cause* play = table_of_play(d);
+    REQUIRE(play);
+    CHECK(play->points.front().at == 40.0);
+    CHECK(farthest_mm(d.setup, gap_mm) < 4.0 * sigma_mm);
+}
+
 TEST_CASE("runs one way do not tell play from positioning", "[diagnosis]") {
     const auto d = diagnosed(
         laser([](double at_mm) { return 10e-3 * std::exp(-std::pow((at_mm - 200.0) / 70.0, 2)); },
