@@ -145,7 +145,8 @@ std::vector<Shape> shapes_of_turn(const Prepared& p, const TableForm& table) {
     }
     const int singles = std::min(last_single_order - table.first_order + 1, table.orders);
     if (singles < table.orders && is_angle_sensor(p))
-        shapes.push_back({harmonics_of(table, std::vector<double>(singles, 1.0))});
+        shapes.push_back(
+            {harmonics_of(table, std::vector<double>(static_cast<std::size_t>(singles), 1.0))});
     for (Shape& s : shapes) s.log_prior = -std::log(2.0 * static_cast<double>(shapes.size()));
     for (int n = 0; n < singles; ++n)
         shapes.push_back(

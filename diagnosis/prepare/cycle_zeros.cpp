@@ -20,7 +20,6 @@
 namespace trunnion::diagnosis {
 namespace {
 
-constexpr std::size_t fewest_of_cycle = 5;    ///< differences; fewer tell no zero
 constexpr std::size_t fewest_of_part = 3;     ///< differences; fewer tell no zero
 constexpr std::size_t fewest_neighbours = 5;  ///< differences of neighbours that tell the noise
 constexpr double beyond_line = 12.0;          ///< what a jump saves more than a line (assumed)
