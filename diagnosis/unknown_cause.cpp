@@ -91,7 +91,7 @@ Cause unknown_cause(const Outcome& f, const Diagnosis& d) {
             f.judgement.scatter);
     } else if (is_unstated_scatter(f, d) && places.empty()) {
         // Nobody states the noise: it may be that large as well as not.
-        cause.probability = std::min(cause.probability.value(), 0.5);
+        cause.probability = 0.5;
         cause.what =
             "More scatter than is usual of the device, without structure: no effect, position or "
             "time goes with it. It may be noise, which nobody states here: give it in a column "

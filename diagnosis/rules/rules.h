@@ -60,6 +60,8 @@ constexpr double mistaken_left = 0.7;     ///< most of that which is left with a
 constexpr double beside_mistaken = 0.05;  ///< probability at most of a cause beside a wrong table
 
 constexpr double most_scatter = 4.0;    ///< of repeats, relative to what is stated: more is a gap
+constexpr double most_unstated = 10.0;  ///< noise that nobody states, in what is usual of the
+                                        ///< device: more is a gap (assumed)
 constexpr double most_outliers = 0.04;  ///< of the readings: more are a gap of some kind
 constexpr double most_doubtful = 0.2;   ///< ... of which the evidence may say that they are spoiled
 constexpr double driver_p = 1e-4;       ///< significance level of a driver

@@ -282,7 +282,9 @@ Judgement judged(FoldColumns& rows, const Prepared& prepared, const Model& model
     j.gap = spoiled || beyond_noise || is_gap(design, model, j, sizes, saving_of(before, after));
     j.scatter = scatter_of(prepared, noise.model);
     j.only_scatter = !j.gap && j.scatter > rules::most_scatter;
-    j.gap = j.gap || j.only_scatter;
+    // Without repeats, scatter may be structure finer than the places as well as noise.
+    const bool unstated = noise.model.source == NoiseSource::assumed && !prepared.base.noise_given;
+    j.gap = j.gap || j.only_scatter || (unstated && std::sqrt(nu2) > rules::most_unstated);
     return j;
 }
 

@@ -2,8 +2,11 @@
 #include "diagnosis/verdict/verdict.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "base/random.h"
+#include "base/units.h"
+#include "diagnosis/diagnosis.h"
 #include "diagnosis/prepare/outliers.h"
 
 namespace trunnion {
@@ -91,6 +94,44 @@ TEST_CASE("where the gap is needs five readings more than a driver has columns",
         CHECK(where.front().share > 0.99);
         CHECK(where.front().text == "100 % of the gap drifts with time (machine frame)");
     }
+}
+
+// Neighbours 15 degrees apart differ by such an error as much as by noise.
+TEST_CASE("readings without repeats and stated noise, far beyond the usual, are a gap",
+          "[diagnosis]") {
+    std::vector<std::string> notes;
+    const setup::Setup setup = setup::parse_setup(
+        "[machine]\nname = \"m\"\nchain = \"w b C t\"\n[machine.axis.C]\n"
+        "direction = [0, 0, 1]\npoint_mm = [0, 0, 0]\n[[artefact]]\nname = \"R1\"\n"
+        "kind = \"target\"\ntool_mm = [0, 0, 0]\n",
+        "m.toml", notes);
+    const auto verdict = [&](double size_rad, double noise_rad) {
+        SeededNoise noise(4);
+        records::ReadingTable table;
+        table.axes = {Axis::C};
+        for (int k = 0; k < 24; ++k) {
+            records::Reading row;
+            const double c_rad = rad_from_deg(15.0 * k);
+            row.index = k;
+            row.time_s = 5.0 * k;
+            row.test = "turn";
+            row.device = records::Device::angle;
+            row.angular = true;
+            row.feature = "R1";
+            row.direction_M = Vector3(0.0, 0.0, 1.0);
+            row.commanded[Axis::C] = c_rad;
+            row.value_mm = size_rad * (2.0 * std::cos(7.0 * c_rad + 1.0) + std::cos(4.0 * c_rad) +
+                                       std::cos(3.0 * c_rad - 2.0)) +
+                           noise_rad * noise.normal();
+            table.rows.push_back(row);
+        }
+        diagnosis::DiagnosisOptions options;
+        options.plan_next = false;
+        return diagnosis::diagnose(setup, table, options).verdict;
+    };
+    CHECK(verdict(160e-6, 8e-6) != Verdict::no_gap);
+    CHECK(verdict(0.0, 3e-6) == Verdict::no_gap);
+    CHECK(verdict(0.0, 60e-6) == Verdict::unexplained);  // nobody knows
 }
 
 }  // namespace trunnion
