@@ -22,14 +22,6 @@ void close_turn(BeyondCommand& beyond) {
     beyond.too_far.push_back(beyond.too_far.front());
 }
 
-/// Linear interpolation; beyond the ends the nearest value.
-double too_far_at(const BeyondCommand& beyond, double at) {
-    const double inside = std::clamp(at, beyond.at.front(), beyond.at.back());
-    const auto [place, weight] = estimation::place_between(beyond.at, inside);
-    const auto k = static_cast<std::size_t>(place);
-    return (1.0 - weight) * beyond.too_far[k] + weight * beyond.too_far[k + 1];
-}
-
 /// Adds another one at the places of both.
 void add(BeyondCommand& beyond, const BeyondCommand& other) {
     std::vector<double> at;
@@ -39,7 +31,7 @@ void add(BeyondCommand& beyond, const BeyondCommand& other) {
     at.erase(std::unique(at.begin(), at.end(), [&](double a, double b) { return b - a <= near; }),
              at.end());
     std::vector<double> too_far;
-    for (const double q : at) too_far.push_back(too_far_at(beyond, q) + too_far_at(other, q));
+    for (const double q : at) too_far.push_back(beyond(q) + other(q));
     beyond.at = std::move(at);
     beyond.too_far = std::move(too_far);
 }
@@ -65,6 +57,19 @@ bool add(BeyondCommand& beyond, const effects::Catalogue& catalogue, const Cause
     return true;
 }
 
+/// Number of places in a turn between which a control may interpolate linearly: eight in a period
+/// of the highest order that counts. Orders that together make a twentieth of the rms do not.
+int places_of_turn(const TableForm& table, const Eigen::VectorXd& value) {
+    constexpr double uncounted = 0.05 * 0.05;
+    const auto squares_from = [&](int n) { return value.tail(value.size() - 2 * n).squaredNorm(); };
+    int counted = table.orders;
+    while (counted > 1 && squares_from(counted - 1) <= uncounted * squares_from(0)) --counted;
+    const int least = 8 * (table.first_order + counted - 1);
+    for (const int places : {36, 72, 120, 180, 360})
+        if (places >= least) return places;
+    return 720;
+}
+
 bool tells(const Cause& cause) {
     return !cause.beyond.at.empty() && cause.holds_between;
 }
@@ -85,6 +90,12 @@ void add_others(const effects::Catalogue& catalogue, std::vector<Cause>& causes,
 
 }  // namespace
 
+double BeyondCommand::operator()(double q) const {
+    const auto [place, weight] = estimation::place_between(at, q);
+    const auto k = static_cast<std::size_t>(place);
+    return (1.0 - weight) * too_far[k] + weight * too_far[k + 1];
+}
+
 BeyondCommand beyond_command(const ColumnGroup& group, const Eigen::VectorXd& coefficients) {
     const TableForm& table = group.table;
     const int main = effects::main_direction(table.axis);
@@ -100,8 +111,8 @@ BeyondCommand beyond_command(const ColumnGroup& group, const Eigen::VectorXd& co
             .segment(each * static_cast<Eigen::Index>(found - table.directions.begin()), each);
     BeyondCommand beyond{table.axis.name, table.axis.rotary, table.knots, {}};
     if (!table.knots.empty()) beyond.too_far.assign(value.begin(), value.end());
-    const int last = table.first_order + table.orders - 1, places = last <= 24 ? 36 : 3 * last;
-    for (int j = 0; j < places && table.knots.empty(); ++j) {
+    const int places = table.knots.empty() ? places_of_turn(table, value) : 0;
+    for (int j = 0; j < places; ++j) {
         const double q = 2.0 * pi * j / places;
         double sum = 0.0;
         for (int n = 0; n < table.orders; ++n)

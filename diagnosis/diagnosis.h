@@ -38,6 +38,10 @@ struct BeyondCommand {
     std::string axis;  ///< empty: the cause tells nothing of it
     bool rotary = false;
     std::vector<double> at, too_far;
+
+    /// Linear interpolation; beyond the ends the nearest value (beyond_command.cpp). At least two
+    /// places.
+    double operator()(double q) const;
 };
 
 struct Cause {

@@ -50,16 +50,6 @@ std::string against_words(const TablePoint& p) {
                        direction);
 }
 
-/// Linear interpolation between two places.
-double too_far_at(const diagnosis::BeyondCommand& beyond, double at) {
-    const auto after =
-        std::find_if(beyond.at.begin() + 1, beyond.at.end() - 1, [&](double q) { return q >= at; });
-    const auto k = static_cast<std::size_t>(after - beyond.at.begin());
-    const double part = (at - beyond.at[k - 1]) / (beyond.at[k] - beyond.at[k - 1]);
-    return beyond.too_far[k - 1] +
-           std::clamp(part, 0.0, 1.0) * (beyond.too_far[k] - beyond.too_far[k - 1]);
-}
-
 }  // namespace
 
 std::optional<PitchErrorData> pitch_error_data(const diagnosis::Cause& cause, double unit) {
@@ -72,7 +62,7 @@ std::optional<PitchErrorData> pitch_error_data(const diagnosis::Cause& cause, do
     long sum = 0;
     for (std::size_t k = 1; k < beyond.at.size(); ++k) {
         const double at = first + interval * static_cast<double>(k);
-        const double whole = -(too_far_at(beyond, at) - beyond.too_far.front()) / (unit * of_one);
+        const double whole = -(beyond(at) - beyond.too_far.front()) / (unit * of_one);
         const long next = std::lround(whole);
         data.value.push_back(static_cast<int>(next - sum));
         sum = next;

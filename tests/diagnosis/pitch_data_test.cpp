@@ -117,7 +117,7 @@ namespace {
 /// B goes too far by two harmonics of its turn, rad, and with `more` by higher ones.
 double turn_error_rad(double b_rad, double more) {
     return 150e-6 * std::cos(b_rad) + 300e-6 * std::sin(3.0 * b_rad + 0.4) +
-           more * (60e-6 * std::sin(4.0 * b_rad) + 50e-6 * std::cos(5.0 * b_rad + 1.0));
+           more * (60e-6 * std::sin(4.0 * b_rad) + 120e-6 * std::cos(13.0 * b_rad + 1.0));
 }
 
 /// What an autocollimator reads of B, of a control that adds `added_rad` to the command. `tool`:
@@ -186,7 +186,7 @@ TEST_CASE("pitch error data of a rotary axis take its error away, and add up to 
                 sum += data->value[k] * std::clamp(place - static_cast<double>(k), 0.0, 1.0);
             return rad_from_deg(data->unit * sum);
         };
-        // Half a unit of 0.001 deg (17 urad), and the chord of the third harmonic over 10 deg.
+        // Half a unit of 0.001 deg (17 urad), and the chords of the highest harmonic.
         CHECK(1e3 * rms_um(before) > 200.0);
         CHECK(1e3 * rms_um(turned(build.tool, more, typed, 4)) < 12.0);
     }
