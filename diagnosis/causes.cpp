@@ -78,8 +78,8 @@ std::vector<TablePoint> points_of(const ColumnGroup& group, const Eigen::VectorX
                              counts_against(table, d)};
             points.push_back(std::move(point));
         }
-    // Points of a whole turn, from its harmonics.
-    const int last = table.first_order + table.orders - 1, places = last <= 24 ? 36 : 3 * last;
+    // Points of a whole turn, from its harmonics: three a period of the highest order.
+    const int places = std::max(36, 3 * (table.first_order + table.orders - 1));
     for (std::size_t k = 0; k < table.directions.size() && table.knots.empty(); ++k)
         for (int j = 0; j < places; ++j) {
             const double q = 2.0 * pi * j / places;

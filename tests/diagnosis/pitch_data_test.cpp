@@ -178,6 +178,9 @@ TEST_CASE("pitch error data of a rotary axis take its error away, and add up to 
             if (!data) data = report::pitch_error_data(cause);
         REQUIRE(data);
         CHECK(data->rotary);
+        // The curve shows order 13: three points a period.
+        for (const diagnosis::Cause& cause : d.causes)
+            CHECK((more == 0.0 || cause.points.empty() || cause.points.size() >= 39));
         CHECK(std::accumulate(data->value.begin(), data->value.end(), 0) == 0);
         const auto typed = [&](double b_rad) {
             const double place = (deg_from_rad(b_rad) - data->first) / data->interval;
