@@ -12,8 +12,8 @@ namespace trunnion::imports {
 namespace {
 
 constexpr int most_head_lines = 200;
-constexpr std::size_t numbers_a_line = 4;   ///< star and telescope, two angles each
-constexpr std::size_t numbers_of_site = 6;  ///< latitude and date at least, before the first star
+constexpr std::size_t numbers_a_line = 4;       ///< star and telescope, two angles each
+constexpr std::size_t numbers_of_latitude = 3;  ///< degrees, minutes and seconds
 
 bool is_comment(std::string_view line) {
     return line.empty() || line.front() == '!' || line.front() == '#';
@@ -43,6 +43,13 @@ std::vector<std::string_view> words_in(std::string_view line) {
         line.remove_prefix(std::min(end + 1, line.size()));
     }
     return words;
+}
+
+/// The record before the first star, if it stands there: latitude, with or without the date and
+/// the weather.
+bool is_site(std::string_view line) {
+    const std::size_t numbers = words_in(line.substr(0, line.find(';'))).size();
+    return numbers == numbers_of_latitude || numbers > numbers_of_latitude + 2;
 }
 
 /// Names of the two axes that carry the line of sight.
@@ -103,7 +110,7 @@ MadeTable tpoint_table(const ImportFile& file, const setup::Setup& setup) {
         if (upper(line) == "END") break;
         if (!options) continue;  // the caption
         if (!begun) table.add(names, number);
-        const bool about_the_site = !begun && words_in(line).size() >= numbers_of_site;
+        const bool about_the_site = !begun && is_site(line);
         begun = true;
         if (!about_the_site) table.add(row_of(line, {file.path, number, 1}), number);
     }

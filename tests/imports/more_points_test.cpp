@@ -167,6 +167,10 @@ TEST_CASE("a TPOINT run in azimuth and altitude", "[imports][more]") {
         CHECK(read[k].commanded == expected[k].commanded);
     }
     CHECK(read.back().source == "f.txt:8");
+    // The latitude alone, and words behind a star.
+    CHECK(stars({pointing, "run\n: ALTAZ\n-30 14 40.3\n" + rows + "END\n", {}, ""}).size() == 4);
+    CHECK(stars({pointing, "run\n: ALTAZ\n10 30 10 30 0.4 ; [26] A_26\n" + rows, {}, ""}).size() ==
+          6);
     // Without the line about the site the first star is one.
     CHECK(stars({pointing, "run\n: ALTAZ\n" + rows + "END\n", {}, ""}).size() == 4);
     refuses(mount, {pointing, head + "10.5 30.25 10.4\nEND\n", {}, ""}, "four angles", 6);
