@@ -300,6 +300,15 @@ Outcome with_judgement(const Outcome& found, const Judgement& judgement) {
             found.noise,    found.used,   found.beside_set_up, found.found};
 }
 
+/// Variance of a reading under which models are weighed: what is expected of the noise; where
+/// nobody states it (the last digit of a log is no noise of its drive), what the model leaves.
+double weighed_variance(const Outcome& f) {
+    const bool unstated =
+        f.noise.model.source == NoiseSource::assumed && !f.prepared.base.noise_given;
+    const double left = f.model.variances.nu * f.model.variances.nu;
+    return unstated ? std::max(f.judgement.floor, left) : f.judgement.floor;
+}
+
 /// What is written, and what is claimed beside that.
 struct Told {
     Written written;
@@ -316,7 +325,7 @@ Told told_of(const Outcome& found, const records::ReadingTable* holdout) {
     told.claims =
         claims_of({f.design, f.setting}, f.model, sizes,
                   {f.judgement.support, f.found, f.prepared.folds, f.judgement.interpolates,
-                   std::max(f.judgement.part, f.judgement.beside_zeros)});
+                   std::max(f.judgement.part, f.judgement.beside_zeros), weighed_variance(f)});
     merge_free_forms(f, told.claims);
     return told;
 }

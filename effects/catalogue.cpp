@@ -120,7 +120,7 @@ Catalogue make_catalogue(const setup::Setup& setup, const DataExtent& extent) {
     }
     append_axis_effects(list, chain);
     if (basic) append_squareness(list, chain);
-    list.push_back(servo_mismatch(chain));
+    list.push_back(servo_mismatch(chain, extent.devices.count(records::Device::axis) > 0));
     list.push_back(servo_contour(chain));
     list.push_back(thermal_drift(extent, chain));
     list.push_back(thermal_expansion(chain));

@@ -38,7 +38,9 @@ Effect linear_reversal_spike(const kinematics::AxisGeometry& axis);
 Effect linear_lateral_play(const kinematics::AxisGeometry& axis);
 /// XY, YZ or ZX: `moving` is the axis with the squareness error, tilted about direction `about`.
 Effect squareness(const std::string& plane, const kinematics::AxisGeometry& moving, int about);
-Effect servo_mismatch(const kinematics::Chain& chain);
+/// `logged`: readings of a servo log see the whole lag of an axis, others what it has more than the
+/// other axes.
+Effect servo_mismatch(const kinematics::Chain& chain, bool logged);
 Effect servo_contour(const kinematics::Chain& chain);
 /// Where a rotary axis carries the tool, the structure drifts in M besides the tip in S.
 Effect thermal_drift(const DataExtent& extent, const kinematics::Chain& chain);

@@ -118,12 +118,22 @@ void tell_absurd_zero(BaseModel& model, const FitParameter& p, const records::Re
 
 }  // namespace
 
+/// What the readings leave to a value, by their own scatter: one that they hardly see (a target
+/// almost on its axis) may come out as anything.
+double least_size(const BaseModel& model, const FitParameter& p) {
+    constexpr double sigmas = 3.0;
+    const Eigen::VectorXd relative = model.residual_mm.cwiseQuotient(model.sigma_mm);
+    const double misfit =
+        std::max(1.0, std::sqrt(relative.squaredNorm() / static_cast<double>(relative.size())));
+    return std::abs(p.value) - sigmas * misfit * p.sigma;
+}
+
 /// An implausible location error means that the setup describes another machine.
 void tell_absurd_value(BaseModel& model, const FitParameter& p,
                        const records::ReadingTable& table) {
     tell_absurd_zero(model, p, table);
     if (p.location && std::isfinite(p.sigma) &&
-        std::abs(p.value) > (p.unit == "mm" ? absurd_mm : absurd_rad))
+        least_size(model, p) > width_of(model.setup) * (p.unit == "mm" ? absurd_mm : absurd_rad))
         tell_absurd(model, model.setup.model.allow_large,
                     fmt::format("{} comes out as {} {}", p.name, three_digits(p.value), p.unit),
                     {table.path, 0, 0});

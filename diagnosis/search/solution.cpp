@@ -164,13 +164,30 @@ Eigen::VectorXd table_values(const ColumnGroup& group, const Eigen::VectorXd& co
     return value;
 }
 
+namespace {
+
+/// 2 for s^2 and 3 for s^3, the lags of higher order: these grow with a power of the time constant.
+double power_of_time(const ColumnGroup& group, Eigen::Index feature) {
+    const auto j = static_cast<std::size_t>(feature);
+    if (!group.effect || j >= group.parameters.size()) return 1.0;
+    const std::string& unit = group.effect->parameters[group.parameters[j]].unit;
+    return unit == "s^2" ? 2.0 : unit == "s^3" ? 3.0 : 1.0;
+}
+
+}  // namespace
+
 std::vector<double> usual_sizes(Design& design, const Model& model) {
     const Fit fit = fit_of(design, model);
     std::vector<double> sizes;
-    for (std::size_t k = 0; k < model.members.size(); ++k)
-        sizes.push_back(design.group(model.members[k])
-                            .feature_values(fit.mean.segment(fit.first[k], fit.size[k]))
-                            .lpNorm<Eigen::Infinity>());
+    for (std::size_t k = 0; k < model.members.size(); ++k) {
+        const ColumnGroup& group = design.group(model.members[k]);
+        const Eigen::VectorXd value =
+            group.feature_values(fit.mean.segment(fit.first[k], fit.size[k]));
+        double size = 0.0;
+        for (Eigen::Index j = 0; j < value.size(); ++j)
+            size = std::max(size, std::pow(std::abs(value(j)), 1.0 / power_of_time(group, j)));
+        sizes.push_back(size);
+    }
     return sizes;
 }
 

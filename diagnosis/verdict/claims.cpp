@@ -27,7 +27,8 @@ double seen_by(double blocks) {
 
 /// Tempering exponent: compares block scores of a member with those expected from noise. 1 when
 /// blocks are independent; smaller when the residual follows the member over whole blocks.
-double temper(const Sizes& sizes, std::size_t k, const Folds& folds) {
+double temper(const Sizes& sizes, std::size_t k, const HeldOutEvidence& heldout) {
+    const Folds& folds = heldout.folds;
     std::vector<double> score(folds.fold.size(), 0.0), own(folds.fold.size(), 0.0);
     for (std::size_t i = 0; i < folds.group.size(); ++i) {
         const auto row = static_cast<Eigen::Index>(i);
@@ -39,7 +40,7 @@ double temper(const Sizes& sizes, std::size_t k, const Folds& folds) {
     double square = 0.0, expected = 0.0;
     for (std::size_t b = 0; b < own.size(); ++b) {
         square += score[b] * score[b];
-        expected += sizes.floor * own[b];
+        expected += heldout.variance * own[b];
     }
     return 1.0 / std::max(1.0, expected > 0.0 ? square / expected : 1.0);
 }
@@ -355,7 +356,7 @@ std::vector<Claim> claims_of(const Searching& search, const Model& model, const 
         const std::vector<TwoInstead> two = two_instead(design, search.setting, model, k);
         const EvidenceOf told =
             evidence_of(search, model, worth[k], {one, two, !heldout.interpolates[k]},
-                        temper(sizes, k, heldout.folds));
+                        temper(sizes, k, heldout));
         // What the evidence leaves open between forms of one axis is open in all that is seen, too.
         const double seen_axis = std::min(seen, told.axis);
         claim.probability = std::min(probability_against(contender),

@@ -45,6 +45,7 @@ struct HeldOutEvidence {
     const Folds& folds;
     const std::vector<bool>& interpolates;  ///< members that hold between their places
     double explained;  ///< H, the part of the gap that they confirm: no probability is above it
+    double variance;   ///< of one reading, under which the models are weighed
 };
 
 /// Causes that explain nearly as much as a driver or a large zero in its place, most likely first,
