@@ -87,26 +87,55 @@ double likelihood_of(const Searched& s) {
 }
 
 /// Takes the search without doubtful readings where these are more probably spoiled than explained
-/// by what the search with them found.
-void leave_out_spoiled(const Prepared& p, Searched& s, Round& round, KeySearch& keys,
-                       const std::function<bool()>& go_on) {
-    const DoubtfulReadings doubtful = doubtful_readings(p, round.used);
-    if (doubtful.rows.empty()) return;
-    const records::Device device = p.replay.contact(doubtful.rows.front()).device;
-    const double scale = round.noise.model.of(device).scale, left = s.model.variances.nu * scale;
+/// by what the search with them found. True where they are left out. `scale`: of the whitened rows,
+/// in the unit of the doubtful residuals.
+bool leave_out_doubtful(const Prepared& p, const DoubtfulReadings& doubtful, double scale,
+                        Searched& s, Round& round, KeySearch& keys,
+                        const std::function<bool()>& go_on) {
+    if (doubtful.rows.empty()) return false;
+    const double left = s.model.variances.nu * scale;
     const auto is_free = [&](std::size_t m) {
         const GroupKind kind = s.design.group(m).kind;
         return kind == GroupKind::table || kind == GroupKind::driver;
     };
     const bool free = std::any_of(s.model.members.begin(), s.model.members.end(), is_free);
-    if (!free && left < explained_left * doubtful.usual) return;  // these follow anything
+    if (!free && left < explained_left * doubtful.usual) return false;  // these follow anything
     Round fewer = round;
     leave_out(p, doubtful.rows, fewer);
     Searched rest = search_of(p, fewer, keys, nullptr, go_on);
-    const double spoiled = likelihood_of_spoiled(doubtful, round.used, scale);
-    if (likelihood_of(rest) + spoiled < likelihood_of(s) + rules::least_evidence) return;
+    const double spoiled = likelihood_of_spoiled(doubtful, scale);
+    if (likelihood_of(rest) + spoiled < likelihood_of(s) + rules::least_evidence) return false;
     s = std::move(rest);
     round = std::move(fewer);
+    return true;
+}
+
+/// Set-up and the textbook effects that a search found, whitened.
+LinearModel named_model(const Searched& s, std::size_t rows) {
+    const auto n = static_cast<Eigen::Index>(rows);
+    LinearModel model{s.design.known().topRows(n), s.design.data().head(n)};
+    for (const std::size_t m : s.model.members) {
+        if (s.design.group(m).kind != GroupKind::textbook) continue;
+        const Eigen::MatrixXd own = s.design.columns(m).topRows(n);
+        model.columns.conservativeResize(Eigen::NoChange, model.columns.cols() + own.cols());
+        model.columns.rightCols(own.cols()) = own;
+    }
+    return model;
+}
+
+/// Doubtful beside the set-up alone, or else beside the named effects: a large one (the tilt of a
+/// mount) hides them.
+void leave_out_spoiled(const Prepared& p, Searched& s, Round& round, KeySearch& keys,
+                       const std::function<bool()>& go_on) {
+    const DoubtfulReadings doubtful = doubtful_readings(p, set_up_of(p.base), round.used);
+    const double scale =
+        doubtful.rows.empty()
+            ? 1.0
+            : round.noise.model.of(p.replay.contact(doubtful.rows.front()).device).scale;
+    if (leave_out_doubtful(p, doubtful, scale, s, round, keys, go_on)) return;
+    const LinearModel named = named_model(s, round.used.size());
+    if (named.columns.cols() == s.design.known().cols()) return;
+    leave_out_doubtful(p, doubtful_readings(p, named, round.used), 1.0, s, round, keys, go_on);
 }
 
 /// Takes readings in again that were set aside beside the set-up alone, and fit the model: they

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "diagnosis/reading_sizes.h"
 #include "diagnosis/rules/rules.h"
@@ -21,6 +22,25 @@ bool is_spoiled(const Outcome& f) {
 bool is_unstated_scatter(const Outcome& f, const Diagnosis& d) {
     return f.noise.model.source == NoiseSource::assumed && d.where.empty() &&
            f.model.members.empty();
+}
+
+/// Correlation of what is left of successive readings of one test, in its deviations: noise has
+/// none.
+double alike_in_time(const Outcome& f) {
+    double product = 0.0, square = 0.0, pairs = 0.0;
+    std::map<std::string, double> last;
+    for (std::size_t i = 0; i < f.used.size(); ++i) {
+        if (!f.used[i]) continue;
+        const std::string& test = f.prepared.table.rows[f.prepared.replay.table_row(i)].test;
+        const double left = f.judgement.left(static_cast<Eigen::Index>(i));
+        square += left * left;
+        if (const auto before = last.find(test); before != last.end()) {
+            product += left * before->second;
+            ++pairs;
+        }
+        last[test] = left;
+    }
+    return square > 0.0 && pairs > 2.0 ? product / square * std::sqrt(pairs) : 0.0;
 }
 
 /// Probability that something is missing in the model. What left-out readings do not confirm may
@@ -91,11 +111,19 @@ Cause unknown_cause(const Outcome& f, const Diagnosis& d) {
             f.judgement.scatter);
     } else if (is_unstated_scatter(f, d) && places.empty()) {
         // Nobody states the noise: it may be that large as well as not.
-        cause.probability = 0.5;
+        constexpr double alike = 4.0;  // chance below 1e-4
+        const bool follows_time = alike_in_time(f) > alike;
+        cause.probability = follows_time ? rules::sure : 0.5;
         cause.what =
-            "More scatter than is usual of the device, without structure: no effect, position or "
-            "time goes with it. It may be noise, which nobody states here: give it in a column "
-            "sigma_mm or in [model] of the setup, or repeat readings, and it is known";
+            follows_time
+                ? "Successive readings are off alike, as no noise is: something comes and goes "
+                  "with time "
+                  "that no effect of the catalogue does"
+                : "More scatter than is usual of the device, without structure: no effect, "
+                  "position or "
+                  "time goes with it. It may be noise, which nobody states here: give it in a "
+                  "column "
+                  "sigma_mm or in [model] of the setup, or repeat readings, and it is known";
     } else if (places.empty() && cause.probability < 0.5)
         cause.what = "What left-out readings do not confirm, and the others leave open";
     else if (cause.rivals.empty())

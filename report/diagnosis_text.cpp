@@ -37,6 +37,20 @@ std::string parameters_text(const std::vector<identification::FitParameter>& par
     return text;
 }
 
+/// Sums of values that the readings do not determine; a long list of them tells nobody anything.
+std::string unseen_text(const diagnosis::Cause& cause) {
+    constexpr std::size_t most = 2;
+    if (cause.unseen.size() > most)
+        return paragraph(fmt::format("these readings do not determine its values one by one: {} "
+                                     "sums of them are open (--json lists them)",
+                                     cause.unseen.size()),
+                         2);
+    std::string text;
+    for (const identification::Inseparable& group : cause.unseen)
+        text += paragraph("not observable from these readings: " + to_string(group), 2);
+    return text;
+}
+
 std::string cause_text(const diagnosis::Diagnosis& d, const diagnosis::Cause& cause) {
     std::string text = fmt::format("\n{}  {} % of the gap, probability {}\n", cause_name(d, cause),
                                    percent(cause.share), probability_words(cause.probability));
@@ -48,8 +62,7 @@ std::string cause_text(const diagnosis::Diagnosis& d, const diagnosis::Cause& ca
     if (is_sure_only_together(cause))
         text +=
             paragraph("none of these values is certain by itself, only what they do together", 2);
-    for (const identification::Inseparable& group : cause.unseen)
-        text += paragraph("not observable from these readings: " + to_string(group), 2);
+    text += unseen_text(cause);
     if (!cause.points.empty())
         text += fmt::format("  a table of {} values{}\n{}", cause.points.size(),
                             cause.holds_between ? "" : ": at the measured places only",
@@ -67,7 +80,10 @@ std::string cause_text(const diagnosis::Diagnosis& d, const diagnosis::Cause& ca
     if (cause.heldout.shrink >= 0.0)
         return text + fmt::format("shrinks by {} % ({})\n", percent(cause.heldout.shrink),
                                   interval_words(cause.heldout));
-    return text + (is_claimed(cause) && d.causes.size() > 1
+    const bool others = std::any_of(d.causes.begin(), d.causes.end(), [&](const auto& other) {
+        return &other != &cause && other.known && is_claimed(other);
+    });
+    return text + (is_claimed(cause) && others
                        ? "no better by this alone, only together with others\n"
                        : "no better by this alone\n");
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 #include "diagnosis/rules/rules.h"
 #include "estimation/quantiles.h"
@@ -17,18 +18,15 @@ constexpr double far_off = 4.5;           ///< deviations of the others
 constexpr double least_scale = 0.5;       ///< minimum of that deviation, in sigma ...
 constexpr double least_assumed = 0.05;    ///< ... that nobody states
 
-/// Residual of the set-up, fitted to the rows of `used` without regard to the worst of them;
-/// sigma, 0 for other rows.
-Eigen::VectorXd left_by_set_up(const identification::BaseModel& base,
-                               const std::vector<bool>& used) {
+/// Residual of a fit to the rows of `used` without regard to the worst of them; 0 for other rows.
+Eigen::VectorXd left_by(const LinearModel& model, const std::vector<bool>& used) {
     std::vector<Eigen::Index> rows;
     for (std::size_t i = 0; i < used.size(); ++i)
         if (used[i]) rows.push_back(static_cast<Eigen::Index>(i));
-    const Eigen::VectorXd weight = base.sigma_mm(rows).cwiseInverse();
-    const Eigen::MatrixXd columns = weight.asDiagonal() * base.columns(rows, Eigen::all);
-    const Eigen::VectorXd data = weight.cwiseProduct(base.residual_mm(rows));
-    Eigen::VectorXd left = Eigen::VectorXd::Zero(base.residual_mm.size());
-    left(rows) = estimation::trimmed_residual(columns, data, data, rules::most_doubtful);
+    const Eigen::VectorXd data = model.data(rows);
+    Eigen::VectorXd left = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(used.size()));
+    left(rows) = estimation::trimmed_residual(model.columns(rows, Eigen::all), data, data,
+                                              rules::most_doubtful);
     return left;
 }
 
@@ -58,7 +56,13 @@ bool follow_one_another(const emulator::Replay& replay, const std::vector<std::s
 
 }  // namespace
 
-DoubtfulReadings doubtful_readings(const Prepared& prepared, const std::vector<bool>& used) {
+LinearModel set_up_of(const identification::BaseModel& base) {
+    const Eigen::VectorXd weight = base.sigma_mm.cwiseInverse();
+    return {weight.asDiagonal() * base.columns, weight.cwiseProduct(base.residual_mm)};
+}
+
+DoubtfulReadings doubtful_readings(const Prepared& prepared, const LinearModel& model,
+                                   const std::vector<bool>& used) {
     const emulator::Replay& replay = prepared.replay;
     const auto taken = [&](std::size_t i) {
         return used[i] && is_single(replay.contact(i).device);
@@ -67,7 +71,7 @@ DoubtfulReadings doubtful_readings(const Prepared& prepared, const std::vector<b
     std::iota(rows.begin(), rows.end(), std::size_t{0});
     std::erase_if(rows, [&](std::size_t i) { return !taken(i); });
     if (rows.empty()) return {};
-    const Eigen::VectorXd left = left_by_set_up(prepared.base, used).cwiseAbs();
+    const Eigen::VectorXd left = left_by(model, used).cwiseAbs();
     std::vector<double> size;
     for (const std::size_t i : rows) size.push_back(left(static_cast<Eigen::Index>(i)));
     DoubtfulReadings doubtful;
@@ -79,6 +83,11 @@ DoubtfulReadings doubtful_readings(const Prepared& prepared, const std::vector<b
         doubtful.rows.push_back(i);
         doubtful.largest = std::max(doubtful.largest, own);
     }
+    const std::vector<std::size_t> visit = visits_of(replay);
+    doubtful.all_visits = visit.empty() ? 0 : visit.back() + 1;
+    std::size_t last = doubtful.all_visits;
+    for (const std::size_t i : doubtful.rows)
+        if (std::exchange(last, visit[i]) != visit[i]) ++doubtful.visits;
     const auto count = static_cast<double>(doubtful.rows.size()),
                all = static_cast<double>(std::count(used.begin(), used.end(), true));
     const bool few = count <= rules::most_outliers * all;
@@ -88,14 +97,14 @@ DoubtfulReadings doubtful_readings(const Prepared& prepared, const std::vector<b
     return doubtful;
 }
 
-double likelihood_of_spoiled(const DoubtfulReadings& doubtful, const std::vector<bool>& used,
-                             double scale) {
+double likelihood_of_spoiled(const DoubtfulReadings& doubtful, double scale) {
     const double width = 3.0 * doubtful.largest / scale;
-    const auto all = static_cast<double>(std::count(used.begin(), used.end(), true)),
-               spoiled = static_cast<double>(doubtful.rows.size());
+    const auto all = static_cast<double>(doubtful.all_visits),
+               spoiled = static_cast<double>(doubtful.visits),
+               rows = static_cast<double>(doubtful.rows.size());
     // The density of the other readings is without its factor (2 pi)^-1/2, so this one is, too.
-    return spoiled *
-               (std::log(rules::spoiled_part / width) + 0.5 * std::log(2.0 * std::numbers::pi)) +
+    return rows * (0.5 * std::log(2.0 * std::numbers::pi) - std::log(width)) +
+           spoiled * std::log(rules::spoiled_part) +
            (all - spoiled) * std::log1p(-rules::spoiled_part);
 }
 

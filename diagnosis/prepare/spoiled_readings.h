@@ -14,21 +14,31 @@ inline bool is_single(records::Device device) {
     return device != records::Device::ballbar && device != records::Device::axis;
 }
 
-struct DoubtfulReadings {
-    std::vector<std::size_t> rows;  ///< device rows, ascending; empty: none are in doubt
-    double largest = 0.0;           ///< of their residuals, in sigma
-    double usual = 0.0;             ///< robust deviation of all residuals, in sigma
+/// Columns and residuals of the device rows, in sigma or whitened.
+struct LinearModel {
+    Eigen::MatrixXd columns;
+    Eigen::VectorXd data;
 };
-/// Readings far from a fit of the set-up that they cannot influence (estimation/trimmed_fit.h),
-/// where they are at most 20 % of `used`, of more than 1,000 readings more than 4 %, and not side
-/// by side in time. Only of devices whose readings are taken one by one: a ballbar or a servo log
-/// is one course.
-DoubtfulReadings doubtful_readings(const Prepared& prepared, const std::vector<bool>& used);
+/// Of the set-up alone, in sigma.
+LinearModel set_up_of(const identification::BaseModel& base);
+
+struct DoubtfulReadings {
+    std::vector<std::size_t> rows;           ///< device rows, ascending; empty: none are in doubt
+    double largest = 0.0;                    ///< of their residuals, in the unit of the model
+    double usual = 0.0;                      ///< robust deviation of all residuals, in the same
+    std::size_t visits = 0, all_visits = 0;  ///< of a position: those of `rows`, and all
+};
+/// Readings far from a fit of `model` that they cannot influence (estimation/trimmed_fit.h), where
+/// they are at most 20 % of `used`, of more than 1,000 readings more than 4 %, and not side by side
+/// in time. Only of devices whose readings are taken one by one: a ballbar or a servo log is one
+/// course.
+DoubtfulReadings doubtful_readings(const Prepared& prepared, const LinearModel& model,
+                                   const std::vector<bool>& used);
 
 /// Log likelihood of doubtful readings as spoiled ones, each anywhere in their spread, and of the
-/// other rows of `used` as good ones. To be added to the likelihood of a model of the others, whose
-/// rows are in units of `scale` sigma (DeviceNoise::scale).
-double likelihood_of_spoiled(const DoubtfulReadings& doubtful, const std::vector<bool>& used,
-                             double scale);
+/// other visits as good ones: a wrong star or a slip spoils all readings of a visit. To be added to
+/// the likelihood of a model of the others, whose rows are in units of `scale` of those of the
+/// residuals.
+double likelihood_of_spoiled(const DoubtfulReadings& doubtful, double scale);
 
 }  // namespace trunnion::diagnosis

@@ -295,7 +295,9 @@ Verdict verdict_of(const Judgement& j, const std::vector<Claim>& claims) {
     });
     if (j.part < rules::partly) return Verdict::unexplained;
     if (j.part < rules::explained) return Verdict::partly_explained;
-    return rivalled ? Verdict::ambiguous : Verdict::explained;
+    const bool named = std::any_of(claims.begin(), claims.end(),
+                                   [](const Claim& c) { return c.probability >= rules::claimed; });
+    return rivalled || !named ? Verdict::ambiguous : Verdict::explained;
 }
 
 Model without_idle_members(FoldColumns& rows, const SearchSetting& setting, Model model) {

@@ -57,7 +57,7 @@ std::vector<diagnosis::Claim> claims_of(const diagnosis::Searching& search,
                                                   {{50.0, 1000.0, 1.0, 1.0}});
     const std::vector<bool> interpolates(found.model.members.size(), between);
     return diagnosis::claims_of(search, found.model, sizes,
-                                {support, found, folds_of_blocks(), interpolates, 1.0});
+                                {support, found, folds_of_blocks(), interpolates, 1.0, 1.0});
 }
 
 /// A model of which the best contenders are far behind.

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "base/units.h"
 #include "diagnosis/diagnosis.h"
@@ -139,6 +140,38 @@ TEST_CASE("no control rounds by many times its increment, whatever this would ex
     INFO(said(d));
     CHECK(d.verdict != diagnosis::Verdict::no_gap);
     for (const diagnosis::Cause& cause : d.causes) CHECK(cause.effect != "control.rounding");
+}
+
+// The last digit of the log is the only noise that is known, and friction leaves 50 times that.
+TEST_CASE("a lag of tens of milliseconds is named in a log whose noise nobody states",
+          "[diagnosis]") {
+    std::vector<std::string> notes;
+    const setup::Setup one = setup::parse_setup(
+        "[machine]\nname = \"m\"\nchain = \"w b X t\"\n"
+        "[machine.axis.X]\ndirection = [1, 0, 0]\n[model]\nmodelled = []\n",
+        "s.toml", notes);
+    for (const double lag_s : {0.008, 0.03, 0.06}) {
+        records::ReadingTable read = log("log", 400, 0.7);
+        double before = read.rows.front().commanded[Axis::X];
+        double speed = 0.0, rub_mm = 0.0;
+        for (records::Reading& row : read.rows) {
+            const double q = row.commanded[Axis::X];
+            speed = (std::exchange(before, q) - q) / -0.01;
+            // Friction that grows from nothing to its size within some millimetres.
+            rub_mm += 0.2 * (0.25 * std::tanh(speed / 20.0) - rub_mm);
+            const double t = row.time_s - lag_s;
+            const double late = 40.0 * std::sin(1.3 * t + 0.7) + 9.0 * std::sin(3.1 * t + 1.4);
+            row.value_mm = std::round((late - rub_mm) / 1e-3) * 1e-3 - q;
+        }
+        const diagnosis::Diagnosis d = diagnosis::diagnose(one, read);
+        INFO(lag_s << " s: " << said(d));
+        REQUIRE(!d.causes.empty());
+        CHECK(d.causes.front().effect == "servo.mismatch");
+        CHECK(d.causes.front().probability > 0.7);
+        for (const std::string& rival : d.causes.front().rivals)
+            CHECK(rival != "readings.mistaken");
+        CHECK(d.verdict != diagnosis::Verdict::unexplained);
+    }
 }
 
 TEST_CASE("the lag of one recording is named, and nothing else", "[diagnosis]") {

@@ -133,7 +133,7 @@ TEST_CASE("readings that are far off one after the other are no spoiled ones", "
         records::ReadingTable wild = table;
         for (const std::size_t k : stars) *wild.rows[2 * k].value_mm += 1e-3;
         const diagnosis::Prepared prepared = diagnosis::prepare(setup, wild);
-        return diagnosis::doubtful_readings(prepared,
+        return diagnosis::doubtful_readings(prepared, diagnosis::set_up_of(prepared.base),
                                             std::vector<bool>(prepared.replay.size(), true))
             .rows;
     };

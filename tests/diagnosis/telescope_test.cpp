@@ -125,6 +125,31 @@ TEST_CASE("the first and the last star of a run are wrong ones", "[diagnosis]") 
 
 // The droop is 50 times what is usual, and an error of A does the same: one of the two is there, so
 // it is written.
+// Beside the set-up alone they are no further off than the others: the lean hides them.
+TEST_CASE("three wrong stars of 32 are found beside a lean", "[diagnosis]") {
+    const setup::Setup real = mount("[machine.errors]\nEA0C_rad = 1.2e-3\nEB0C_rad = -6e-4\n");
+    for (unsigned seed = 1; seed <= 3; ++seed) {
+        records::ReadingTable table = read_by(real, 32, seed);
+        const records::ReadingTable right = table;
+        std::mt19937 random(seed + 50);
+        std::normal_distribution<double> normal(0.0, 0.3);
+        for (const std::size_t star : {8U, 17U, 24U})
+            for (const std::size_t row : {2 * star, 2 * star + 1})
+                *table.rows[row].value_mm +=
+                    (star == 17U ? -1.0 : 1.0) * (1.8e-3 + 1e-3 * normal(random));
+        const diagnosis::Diagnosis d = diagnosis::diagnose(mount(), table);
+        INFO(seed << " " << said(d));
+        CHECK(d.outliers == 6);
+        CHECK(d.noise_um * 1e-3 == Approx(sigma_rad).epsilon(0.3));
+        REQUIRE(!d.causes.empty());
+        CHECK(d.causes.front().effect == "location");
+        CHECK(d.causes.front().probability > 0.8);
+        CHECK(d.explained > 0.8);
+        // Without wrong ones none is set aside.
+        CHECK(diagnosis::diagnose(mount(), right).outliers == 0);
+    }
+}
+
 TEST_CASE("a large droop that has a rival is written", "[diagnosis]") {
     const setup::Setup real = mount("[effects]\n\"chain.flexure\" = { droop_rad = 2.5e-3 }\n");
     const diagnosis::Diagnosis d = diagnosis::diagnose(mount(), read_by(real, 60, 3));

@@ -14,7 +14,9 @@ namespace trunnion {
 using diagnosis::Verdict;
 
 TEST_CASE("the part of the gap and the rivals decide the verdict", "[diagnosis]") {
-    diagnosis::Claim sure, rivalled;
+    diagnosis::Claim sure, rivalled, unsure;
+    sure.probability = 0.95;
+    unsure.probability = 0.4;
     rivalled.rivals = {"C.backlash"};
     rivalled.share = 0.05;
     diagnosis::Claim background = rivalled;
@@ -25,6 +27,7 @@ TEST_CASE("the part of the gap and the rivals decide the verdict", "[diagnosis]"
     j.gap = true;
     CHECK(verdict_of(j, {sure}) == Verdict::explained);
     CHECK(verdict_of(j, {sure, rivalled}) == Verdict::ambiguous);
+    CHECK(verdict_of(j, {unsure}) == Verdict::ambiguous);  // explained, but by what?
     CHECK(verdict_of(j, {sure, background}) == Verdict::explained);
     j.part = 0.79;
     CHECK(verdict_of(j, {sure}) == Verdict::partly_explained);

@@ -7,6 +7,7 @@
 
 #include "base/random.h"
 #include "effects/settings.h"
+#include "identification/plausible.h"
 
 namespace trunnion {
 namespace {
@@ -64,6 +65,34 @@ TEST_CASE("an arm that was never calibrated may miss by millimetres", "[identifi
     };
     CHECK(rms_mm(5.0) > 1.0);
     CHECK_THROWS_WITH(rms_mm(50.0), Catch::Contains("wrong units"));  // a wrong frame or unit
+}
+
+// What turns a target that stands almost on the last axis is hardly seen: millimetres of that
+// axis's location are within its uncertainty, and no sign of a wrong unit.
+TEST_CASE("a location that the readings hardly see refuses nothing", "[identification][arm]") {
+    const auto told = [](const setup::Setup& setup, double value_mm, double sigma_mm) {
+        identification::BaseModel model;
+        model.setup = setup;
+        model.residual_mm = Eigen::VectorXd::Constant(30, 0.3);  // 10 times what was expected
+        model.sigma_mm = Eigen::VectorXd::Constant(30, 0.03);
+        identification::FitParameter p;
+        p.name = "EZ0J6_mm";
+        p.unit = "mm";
+        p.location = kinematics::ErrorName{};
+        p.value = value_mm;
+        p.sigma = sigma_mm;
+        identification::tell_absurd_value(model, p, {});
+    };
+    const setup::Setup arm = arm::setup(arm::ur5, 100);
+    setup::Setup mill = arm;
+    std::vector<std::string> notes;
+    mill.machine.chain =
+        setup::parse_setup("[machine]\nchain = \"w b X Y Z t\"\n", "m.toml", notes).machine.chain;
+    CHECK_NOTHROW(told(mill, 4.9, 0.001));
+    CHECK_THROWS_WITH(told(mill, 8.3, 0.001), Catch::Contains("wrong units"));
+    CHECK_NOTHROW(told(mill, 8.3, 0.2));
+    CHECK_NOTHROW(told(arm, 8.3, 0.001));
+    CHECK_THROWS_WITH(told(arm, 83.0, 0.001), Catch::Contains("wrong units"));
 }
 
 TEST_CASE("an arm reads what its Denavit-Hartenberg matrices say", "[identification][arm]") {
