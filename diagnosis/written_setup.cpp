@@ -208,13 +208,16 @@ struct Alone {
 };
 
 /// Parts of the readings that are left out as a whole. Where all passes are over one path, there is
-/// no other one to predict it from: then each pass.
+/// no other one to predict it from: then each pass. Of a laser or an angle sensor on one axis, whose
+/// passes lead over the same places, those blocks of which others see the places: nothing predicts
+/// an end of the travel that is left out in all passes.
 struct Paths {
     Folds folds;
     bool one = false;
 };
 
 Paths paths_of(const Prepared& p) {
+    if (!p.cycle.empty() && p.cycle.back() > 0) return {p.folds};
     Paths paths{path_folds(p.blocks, p.replay, p.table.axes)};
     std::vector<int>& fold = paths.folds.fold;
     paths.one = std::adjacent_find(fold.begin(), fold.end(), std::not_equal_to<>()) == fold.end();

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "base/units.h"
+#include "diagnosis/groups/beside_places.h"
 #include "diagnosis/groups/candidate_groups.h"
 #include "diagnosis/rules/rules.h"
 #include "diagnosis/search/whole_drivers.h"
@@ -371,6 +373,7 @@ void add_driver_groups(Design& design, const Prepared& prepared, const Whitener&
                 usual_driver_mm *
                 Eigen::Map<const Eigen::VectorXd>(driver.columns[c].data(), columns.rows());
         whitener.apply(columns);
+        if (driver.of_time) columns = beside_places(prepared, whitener, std::move(columns));
         ColumnGroup group;
         group.kind = GroupKind::driver;
         group.name = driver.by;

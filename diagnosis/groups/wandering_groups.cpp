@@ -3,8 +3,10 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
+#include "diagnosis/groups/beside_places.h"
 #include "diagnosis/groups/candidate_groups.h"
 #include "diagnosis/rules/rules.h"
 #include "diagnosis/search/whole_drivers.h"
@@ -16,16 +18,6 @@ namespace {
 constexpr std::size_t most_time_knots = 48;
 constexpr Eigen::Index most_time_columns = 32;
 constexpr double part_of_time = 1.0 / 20.0;  ///< that a state lasts, of the whole test (assumed)
-
-/// True for readings of a laser, an autocollimator or a reference encoder: their zero is one value
-/// along the axis. What a probe reads may move in every direction (driver_groups.cpp).
-bool have_one_direction(const emulator::Replay& replay) {
-    for (std::size_t i = 0; i < replay.size(); ++i) {
-        const records::Device device = replay.contact(i).device;
-        if (device != records::Device::linear && device != records::Device::angle) return false;
-    }
-    return true;
-}
 
 /// Smooth courses of time without their mean: rows x columns.
 Eigen::MatrixXd courses_of_time(const Prepared& p) {
@@ -75,6 +67,7 @@ void add_wandering_groups(Design& design, const Prepared& prepared, const Whiten
         Eigen::MatrixXd columns = response_to(prepared, axis).asDiagonal() * courses;
         if (columns.squaredNorm() == 0.0) continue;
         whitener.apply(columns);
+        columns = beside_places(prepared, whitener, std::move(columns));
         ColumnGroup group;
         group.kind = GroupKind::driver;
         group.name = "time";

@@ -110,7 +110,12 @@ Solution solved(Design& design, const Model& model) {
     s.known = design.known().cols();
     Design::Normal normal = design.normal(model.members);
     Eigen::VectorXd precision(normal.product.size());
-    precision.head(s.known).setConstant(1.0 / (rules::set_up_range * rules::set_up_range));
+    // What all cycles have in common is the zero of the set-up, however large the zeros are.
+    double range = rules::set_up_range;
+    for (std::size_t k = 0; k < model.members.size(); ++k)
+        if (design.group(model.members[k]).kind == GroupKind::offset)
+            range = std::max(range, rules::set_up_range * model.variances.tau[k]);
+    precision.head(s.known).setConstant(1.0 / (range * range));
     Eigen::Index count = s.known;
     for (std::size_t k = 0; k < model.members.size(); ++k) {
         s.first.push_back(count);
