@@ -74,9 +74,19 @@ bool tells(const Cause& cause) {
     return !cause.beyond.at.empty() && cause.holds_between;
 }
 
+/// True for a line that may be that of the form itself: whichever it is, the axis has it.
+bool is_line_of(const Cause& form, const Cause& line) {
+    const auto has = [](const Cause& cause, const std::string& rival) {
+        return std::find(cause.rivals.begin(), cause.rivals.end(), rival) != cause.rivals.end();
+    };
+    return form.probability >= rules::claimed && line.points.empty() && has(form, line.effect) &&
+           has(line, form.effect);
+}
+
 void add_others(const effects::Catalogue& catalogue, std::vector<Cause>& causes, Cause& first) {
     for (Cause& other : causes) {
-        if (&other == &first || other.probability < rules::claimed) continue;
+        if (&other == &first) continue;
+        if (other.probability < rules::claimed && !is_line_of(first, other)) continue;
         const bool form = tells(other) && other.beyond.axis == first.beyond.axis &&
                           first.probability >= rules::claimed;
         if (form)

@@ -11,6 +11,7 @@
 #include "diagnosis/causes.h"
 #include "diagnosis/changes.h"
 #include "diagnosis/doubted.h"
+#include "diagnosis/measured_surface.h"
 #include "diagnosis/reading_sizes.h"
 #include "diagnosis/rules/rules.h"
 #include "diagnosis/search/offers.h"
@@ -19,6 +20,7 @@
 #include "diagnosis/shrink_interval.h"
 #include "diagnosis/unknown_cause.h"
 #include "diagnosis/verdict/between_places.h"
+#include "diagnosis/wandering_zeros.h"
 #include "diagnosis/written_setup.h"
 #include "estimation/distributions.h"
 
@@ -327,6 +329,7 @@ Told told_of(const Outcome& found, const records::ReadingTable* holdout) {
                   {f.judgement.support, f.found, f.prepared.folds, f.judgement.interpolates,
                    std::max(f.judgement.part, f.judgement.beside_zeros), weighed_variance(f)});
     merge_free_forms(f, told.claims);
+    doubt_measured_surface(f, told.claims);
     return told;
 }
 
@@ -360,6 +363,7 @@ Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options) {
     d.unexplained_share = 1.0 - d.explained;
     if (options.over_sessions) tell_sessions(f, claims, d);
     d.where = where_of(f.design, f.judgement.floor);
+    add_wandering_zeros(f, d.where);
     const FreshReadings fresh(f.prepared, options.seed);
     const ShrinkDraws draws(f.design, fresh, possible_truths(f),
                             draw_setting(f, written, options.seed));
@@ -371,6 +375,7 @@ Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options) {
             is_written(f.design, written.model, f.design.group(f.model.members[claim.position]));
     }
     join_of_axis(f.prepared.catalogue, d.causes);
+    tell_measured_surface(f, d.causes);
     d.after = held_out(f, written.blocks.before, written.blocks.after);
     widen(d.after, draws.interval_elsewhere(written.model));
     d.after.high = std::max(d.after.high.value(), fitted_shrink(f, written.model));

@@ -4,6 +4,7 @@
 
 #include "diagnosis/rules/rules.h"
 #include "diagnosis/search/solution.h"
+#include "diagnosis/verdict/line_of_form.h"
 
 namespace trunnion::diagnosis {
 namespace {
@@ -30,8 +31,11 @@ double probability_of_either(const Outcome& f, const Claim& claim) {
     return claim.probability * (rivalled ? 2.0 : 1.0);
 }
 
+/// The line beside a claimed form is as certain as that: only its name is open.
 bool is_claimed(const Outcome& f, std::size_t position, const std::vector<Claim>& claims) {
     const std::string& name = f.design.group(f.model.members[position]).name;
+    const auto form = form_of_line(f.design, f.model, position);
+    if (form && is_claimed(f, *form, claims)) return true;
     return std::any_of(claims.begin(), claims.end(), [&](const Claim& claim) {
         return probability_of_either(f, claim) >= rules::claimed &&
                (claim.position == position || claim.name == name);

@@ -11,6 +11,7 @@
 #include "diagnosis/groups/machine_jump.h"
 #include "diagnosis/groups/rests.h"
 #include "diagnosis/groups/ripples.h"
+#include "diagnosis/prepare/both_sides.h"
 #include "diagnosis/prepare/near_readings.h"
 #include "diagnosis/search/solution.h"
 #include "diagnosis/search/whole_drivers.h"
@@ -212,6 +213,15 @@ void take_neighbours(const NeighbourNoise& told, NoiseBelief& belief) {
     if (std::abs(off) > belief.prior.spread) belief.prior.log_mean = off;
 }
 
+/// Both sides of a line tell the noise itself, not what it is at most.
+bool take_sides(const NeighbourNoise& told, NoiseBelief& belief) {
+    if (told.variance <= 0.0) return false;
+    belief.prior.log_mean = 0.5 * std::log(told.variance);
+    belief.prior.spread = std::max(0.3, 0.5 * told.doubt);
+    belief.most = told.variance * std::exp(6.0 * belief.prior.spread);  // three deviations
+    return true;
+}
+
 }  // namespace
 
 Eigen::VectorXd rest_of(const Prepared& p, Design& design, const Model& model) {
@@ -235,10 +245,10 @@ NoiseBelief belief_of(const Prepared& p, const Eigen::VectorXd& residual_mm, con
         case NoiseSource::assumed: belief.prior.spread = 0.7; break;
     }
     belief.most = std::exp(2.0 * 2.0 * std::max(0.3, belief.prior.spread));
-    if (belief.model.source == NoiseSource::assumed)
-        take_neighbours(
-            noise_of_neighbours(p.replay, round.used, residual_mm.cwiseQuotient(round.sigma_mm)),
-            belief);
+    if (belief.model.source != NoiseSource::assumed) return belief;
+    const Eigen::VectorXd white = residual_mm.cwiseQuotient(round.sigma_mm);
+    if (!take_sides(noise_of_sides(rows, white, belief.prior.least), belief))
+        take_neighbours(noise_of_neighbours(p.replay, round.used, white), belief);
     return belief;
 }
 

@@ -7,6 +7,7 @@
 
 #include "diagnosis/doubted.h"
 #include "diagnosis/measured_places.h"
+#include "diagnosis/prepare/target_visits.h"
 #include "diagnosis/rules/rules.h"
 #include "diagnosis/search/solution.h"
 #include "diagnosis/set_up_alone.h"
@@ -219,6 +220,8 @@ struct Paths {
 Paths paths_of(const Prepared& p) {
     if (!p.cycle.empty() && p.cycle.back() > 0) return {p.folds};
     Paths paths{path_folds(p.blocks, p.replay, p.table.axes)};
+    // Both ways over a target are one path: where both were left out, its form is not known.
+    spread_visits(p.blocks, p.replay, p.table, paths.folds);
     std::vector<int>& fold = paths.folds.fold;
     paths.one = std::adjacent_find(fold.begin(), fold.end(), std::not_equal_to<>()) == fold.end();
     if (paths.one)

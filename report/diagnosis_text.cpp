@@ -16,6 +16,21 @@
 namespace trunnion::report {
 namespace {
 
+/// Beside what a cause that is no better alone was claimed: other causes, or zeros that wander.
+std::string no_better_words(const diagnosis::Diagnosis& d, const diagnosis::Cause& cause) {
+    if (!cause.known || !is_claimed(cause)) return "no better by this alone\n";
+    const bool others = std::any_of(d.causes.begin(), d.causes.end(), [&](const auto& other) {
+        return &other != &cause && other.known && is_claimed(other);
+    });
+    const bool zeros = std::any_of(d.where.begin(), d.where.end(), [](const auto& place) {
+        return place.by.starts_with("zero of ");
+    });
+    return fmt::format("no better by this alone{}\n",
+                       others  ? ", only together with others"
+                       : zeros ? ", only beside zeros that are free (above)"
+                               : "");
+}
+
 /// In workshop units, with as many digits as the sigma supports.
 std::string parameter_line(const identification::FitParameter& p) {
     const ShopValue v = shop_value(p);
@@ -80,12 +95,7 @@ std::string cause_text(const diagnosis::Diagnosis& d, const diagnosis::Cause& ca
     if (cause.heldout.shrink >= 0.0)
         return text + fmt::format("shrinks by {} % ({})\n", percent(cause.heldout.shrink),
                                   interval_words(cause.heldout));
-    const bool others = std::any_of(d.causes.begin(), d.causes.end(), [&](const auto& other) {
-        return &other != &cause && other.known && is_claimed(other);
-    });
-    return text + (is_claimed(cause) && others
-                       ? "no better by this alone, only together with others\n"
-                       : "no better by this alone\n");
+    return text + no_better_words(d, cause);
 }
 
 /// What is left with the causes, and with the setup that is written.

@@ -90,15 +90,22 @@ std::size_t longest_of_pass(const emulator::Replay& replay) {
     return std::clamp<std::size_t>(count / blocks, 1, longest);
 }
 
-/// True when an axis reversed after the approaches of a pass: the way back is another pass.
+/// True when an axis reversed after the approaches of a pass: the way back is another pass. Were
+/// both readings of the last target left out together, nothing would be known of it.
 bool turned_back(const emulator::Replay& replay, const records::ReadingTable& table,
-                 const std::vector<Eigen::Index>& visit, std::size_t i) {
+                 std::size_t i) {
     constexpr std::size_t least = 3;  // readings; targets in random order are approached at will
-    if (visit.size() < least) return false;
-    const auto last = static_cast<std::size_t>(visit.back());
+    const std::string& test = table.rows[replay.table_row(i)].test;
     return std::any_of(table.axes.begin(), table.axes.end(), [&](Axis axis) {
-        return replay.sample(last).travel[index_of(axis)] !=
-               replay.sample(i).travel[index_of(axis)];
+        const auto travel = [&](std::size_t row) {
+            return replay.sample(row).travel[index_of(axis)];
+        };
+        if (travel(i - 1) == travel(i)) return false;
+        std::size_t count = 1;
+        while (count < least && count < i && travel(i - 1 - count) == travel(i - 1) &&
+               table.rows[replay.table_row(i - 1 - count)].test == test)
+            ++count;
+        return count == least;
     });
 }
 
@@ -151,7 +158,7 @@ std::vector<NoiseBlock> noise_blocks(const emulator::Replay& replay,
             const std::vector<Eigen::Index>& visit = blocks[it->second].rows;
             same = static_cast<std::size_t>(visit.back()) + 1 == i &&
                    !(reads_targets(row.device) &&
-                     (visit.size() >= of_pass || turned_back(replay, table, visit, i))) &&
+                     (visit.size() >= of_pass || turned_back(replay, table, i))) &&
                    continues(replay, table, visit, i);
         }
         if (!same) {

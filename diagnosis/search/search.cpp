@@ -6,6 +6,7 @@
 
 #include "diagnosis/search/offers.h"
 #include "diagnosis/search/stand_ins.h"
+#include "diagnosis/search/whole_play.h"
 
 namespace trunnion::diagnosis {
 namespace {
@@ -100,6 +101,7 @@ bool grow(Design& design, const SearchSetting& setting, Model& model, bool with_
         Model sharp = model;
         sharp.variances.nu = expected;
         best = stepped(design, setting, model, sharp, with_zeros);
+        if (best.members == model.members) best = with_whole_play(design, setting, model, sharp);
     }
     if (best.members == model.members) return false;
     if (best.members.size() > model.members.size())

@@ -11,6 +11,7 @@
 #include "diagnosis/search/solution.h"
 #include "diagnosis/verdict/cause_evidence.h"
 #include "diagnosis/verdict/contenders.h"
+#include "diagnosis/verdict/line_of_form.h"
 #include "estimation/distributions.h"
 
 namespace trunnion::diagnosis {
@@ -322,6 +323,14 @@ void mark_second_parts(const Design& design, const Model& model, std::vector<Cla
     }
 }
 
+/// What is rather not there stands behind what is claimed.
+void put_in_order(std::vector<Claim>& claims) {
+    std::stable_sort(claims.begin(), claims.end(), [](const Claim& a, const Claim& b) {
+        return std::tuple(a.probability >= rules::claimed, !a.second_part, a.share) >
+               std::tuple(b.probability >= rules::claimed, !b.second_part, b.share);
+    });
+}
+
 }  // namespace
 
 std::vector<Claim> claims_of(const Searching& search, const Model& model, const Sizes& sizes,
@@ -376,12 +385,9 @@ std::vector<Claim> claims_of(const Searching& search, const Model& model, const 
     // Contributions that cancel are not reliable.
     if (sum_of_causes(design, model, sizes) > rules::most_own)
         for (Claim& claim : claims) claim.probability = std::min(claim.probability, doubtful);
+    doubt_lines_of_forms(design, model, claims);
     mark_second_parts(design, model, claims);
-    // What is rather not there stands behind what is claimed.
-    std::stable_sort(claims.begin(), claims.end(), [](const Claim& a, const Claim& b) {
-        return std::tuple(a.probability >= rules::claimed, !a.second_part, a.share) >
-               std::tuple(b.probability >= rules::claimed, !b.second_part, b.share);
-    });
+    put_in_order(claims);
     return claims;
 }
 

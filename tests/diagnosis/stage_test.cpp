@@ -326,7 +326,9 @@ TEST_CASE("a bow seen at three targets is a table beside the scale", "[diagnosis
     const diagnosis::Diagnosis d = diagnosis::diagnose(stage(), laser(truth, 10, 8));
     INFO(said(d));
     REQUIRE(cause(d, "X.scale", false));
-    CHECK(cause(d, "X.scale", false)->probability > 0.5);
+    // One value beside the line tells the size of the form, and no scale is certain beside that.
+    CHECK(cause(d, "X.scale", false)->probability > 0.4);
+    CHECK(cause(d, "X.scale", false)->probability < 0.7);
     CHECK(cause(d, "X.positioning", true));
     REQUIRE(cause(d, "X.backlash", false));
     CHECK(cause(d, "X.backlash", false)->parameters.front().value == Approx(0.0038).margin(4e-4));

@@ -108,6 +108,10 @@ TEST_CASE("a cause that is no better alone has no shrink of its own") {
     d.causes.push_back(d.causes.front());
     CHECK_THAT(report::diagnosis_text(d),
                Catch::Contains("no better by this alone, only together with others"));
+    d.causes.back().known = false;
+    CHECK_THAT(report::diagnosis_text(d), !Catch::Contains("only together with others"));
+    d.where.push_back({"zero of a cycle", "reading", "", 0.8, 0.0});
+    CHECK_THAT(report::diagnosis_text(d), Catch::Contains("only beside zeros that are free"));
 }
 
 TEST_CASE("an interval below -100 % says in words that the gap may grow") {
