@@ -105,16 +105,29 @@ Eigen::MatrixXd Solution::covariance() const {
     return half.transpose() * half;
 }
 
+namespace {
+
+/// How far the set-up may be off beside errors of many times the usual size, which have a mean of
+/// their own (an angle sensor of degrees), and beside zeros of cycles, whose mean is that of the
+/// set-up: in their size; else 1.
+double enormous_size(const Design& design, const Model& model) {
+    double most = 1.0;
+    for (std::size_t k = 0; k < model.members.size(); ++k) {
+        const double tau = model.variances.tau[k];
+        const bool zero = design.group(model.members[k]).kind == GroupKind::offset;
+        if (zero || tau > rules::enormous) most = std::max(most, tau);
+    }
+    return most;
+}
+
+}  // namespace
+
 Solution solved(Design& design, const Model& model) {
     Solution s;
     s.known = design.known().cols();
     Design::Normal normal = design.normal(model.members);
     Eigen::VectorXd precision(normal.product.size());
-    // What all cycles have in common is the zero of the set-up, however large the zeros are.
-    double range = rules::set_up_range;
-    for (std::size_t k = 0; k < model.members.size(); ++k)
-        if (design.group(model.members[k]).kind == GroupKind::offset)
-            range = std::max(range, rules::set_up_range * model.variances.tau[k]);
+    const double range = rules::set_up_range * enormous_size(design, model);
     precision.head(s.known).setConstant(1.0 / (range * range));
     Eigen::Index count = s.known;
     for (std::size_t k = 0; k < model.members.size(); ++k) {
