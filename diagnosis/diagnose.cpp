@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/alarm.h"
+#include "diagnosis/added_noise.h"
 #include "diagnosis/changes.h"
 #include "diagnosis/diagnosis_report.h"
 #include "diagnosis/groups/open_sides.h"
@@ -64,6 +65,7 @@ bool same_noise(const NoiseModel& a, const NoiseModel& b) {
         const DeviceNoise &x = a.of(device), &y = b.of(device);
         if (std::abs(x.scale - y.scale) > 0.03 * x.scale) return false;
         if (std::abs(x.shared - y.shared) > 0.03) return false;
+        if (std::abs(x.turned - y.turned) > 0.03) return false;
         if (x.shared > 0.03 && std::abs(x.memory - y.memory) > 0.03) return false;
     }
     return true;
@@ -229,6 +231,11 @@ Diagnosis answer_of(const setup::Setup& setup, const records::ReadingTable& tabl
     std::optional<KeySearch> keys(std::in_place, p.replay, p.base);
     watch("search among models");
     Searched s = search_of(p, round, *keys, nullptr, options.go_on);
+    add_noise(p, s, round, [&](const Prepared& weighted, const Round& other) {
+        keys.emplace(weighted.replay, weighted.base);  // its columns are weighted
+        return search_of(weighted, other, *keys, nullptr, options.go_on);
+    });
+    keys.emplace(p.replay, p.base);
     leave_out_spoiled(p, s, round, *keys, options.go_on);
     const std::vector<bool> beside_set_up = round.used;
     const auto stopped = [&] { return options.go_on && !options.go_on(); };

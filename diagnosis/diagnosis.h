@@ -83,10 +83,17 @@ struct SessionFit {
     double rms_before_um = 0.0, rms_after_um = 0.0;  ///< with the set-up alone, with the causes
 };
 
+/// Noise that adds to what the rows of a device state, rms of the rows, um.
+struct AddedNoise {
+    records::Device device = records::Device::none;
+    double stated_um = 0.0, added_um = 0.0;
+};
+
 struct Diagnosis {
     bool angles = false;  ///< all readings are angles: what is named _um is µrad
     Verdict verdict = Verdict::no_gap;
     NoiseModel noise;
+    std::vector<AddedNoise> added;  ///< where the rows state too little of it
     Finite rms_um = 0.0, noise_um = 0.0, excess_um = 0.0, p_value = 1.0;
     bool only_scatter = false;  ///< the gap is nothing but repeats that differ more than is stated
     std::vector<DriverShare> where;

@@ -112,12 +112,13 @@ void describe_size(const Outcome& f, const Solution& solution, Diagnosis& d) {
     d.readings = f.prepared.replay.size();
     d.outliers = set_aside(f);
     d.noise = f.noise.model;
+    d.added = added_noise(f);
     if (d.noise.source != NoiseSource::repeats) {
         const double chance = 3.0 / std::sqrt(2.0 * std::max(1.0, f.design.freedom()));
         const double nu = f.model.variances.nu;
         // Of an unexplained gap the noise part is unknown.
         const bool unknown = f.judgement.gap && f.judgement.part < rules::partly;
-        if (unknown || std::abs(std::log(nu)) > std::max(noise_is_off, chance))
+        if (unknown || !d.added.empty() || std::abs(std::log(nu)) > std::max(noise_is_off, chance))
             d.noise.source = NoiseSource::assumed;
         for (const records::Device device :
              {records::Device::sphere, records::Device::touch, records::Device::ballbar})

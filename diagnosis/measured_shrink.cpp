@@ -74,7 +74,8 @@ Separate separate(const Outcome& f, const setup::Setup& setup, const records::Re
     held.sigma_mm = identification::row_noise(base, table, held.replay).sigma_mm;
     for (const NoiseBlock& block : held.blocks)
         for (const Eigen::Index i : block.rows)
-            held.sigma_mm(i) *= std::sqrt(f.judgement.floor) * f.noise.model.of(block.device).scale;
+            held.sigma_mm(i) = std::hypot(held.sigma_mm(i), f.prepared.added(block.device)) *
+                               std::sqrt(f.judgement.floor) * f.noise.model.of(block.device).scale;
     held.before_mm = beside(table, held.replay, held.replay.predict(f.prepared.base.models));
     held.after_mm = beside(table, fitted, fitted.predict(effects::active_models(setup)));
     held.used = not_spoiled(held);

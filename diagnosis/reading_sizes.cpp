@@ -36,6 +36,23 @@ HeldOut held_out(const Outcome& f, const Eigen::VectorXd& before, const Eigen::V
     return h;
 }
 
+std::vector<AddedNoise> added_noise(const Outcome& f) {
+    std::vector<AddedNoise> list;
+    const double micro = records::micro_per_one(f.prepared.table);
+    for (const auto& [device, added] : f.prepared.added_mm) {
+        if (added <= 0.0) continue;
+        double sum = 0.0, rows = 0.0;
+        for (std::size_t i = 0; i < f.used.size(); ++i)
+            if (f.used[i] && f.prepared.replay.contact(i).device == device) {
+                sum += std::pow(f.prepared.stated_sigma_mm(static_cast<Eigen::Index>(i)), 2);
+                rows += 1.0;
+            }
+        const double nu = std::sqrt(f.judgement.floor) * f.noise.model.of(device).scale;
+        list.push_back({device, micro * std::sqrt(sum / std::max(1.0, rows)), micro * nu * added});
+    }
+    return list;
+}
+
 std::size_t set_aside(const Outcome& f) {
     return static_cast<std::size_t>(std::count(f.used.begin(), f.used.end(), false));
 }

@@ -17,4 +17,7 @@ HeldOut held_out(const Outcome& found, const Eigen::VectorXd& before, const Eige
 /// Number of readings that were set aside.
 std::size_t set_aside(const Outcome& found);
 
+/// What the rows of the devices state, and what was found to add to it.
+std::vector<AddedNoise> added_noise(const Outcome& f);
+
 }  // namespace trunnion::diagnosis

@@ -13,6 +13,7 @@
 #include "diagnosis/groups/ripples.h"
 #include "diagnosis/prepare/both_sides.h"
 #include "diagnosis/prepare/near_readings.h"
+#include "diagnosis/rules/rules.h"
 #include "diagnosis/search/solution.h"
 #include "diagnosis/search/whole_drivers.h"
 #include "effects/settings.h"
@@ -234,6 +235,12 @@ NoiseBelief belief_of(const Prepared& p, const Eigen::VectorXd& residual_mm, con
     NoiseBelief belief;
     const RepeatedRows rows{p.replay, p.table, p.blocks, round.used, p.cycle, p.rounding_mm};
     belief.model = noise_from_repeats(rows, residual_mm, round.sigma_mm, start);
+    // What is stated is the noise of a reading; repeats have that of their stops as well.
+    DeviceNoise& point = belief.model.point;
+    point.shared = round.shared_by_stops;
+    point.turned = round.turned_by_stops;
+    if (belief.model.source != NoiseSource::repeats)
+        point.scale /= std::sqrt(1.0 - point.shared - point.turned);
     // The errors of rounding may be somewhat smaller than those of even numbers.
     belief.prior.least =
         std::max(least_noise, 0.7 * least_by_rounding(rows, round.sigma_mm, belief.model));
@@ -245,10 +252,14 @@ NoiseBelief belief_of(const Prepared& p, const Eigen::VectorXd& residual_mm, con
         case NoiseSource::assumed: belief.prior.spread = 0.7; break;
     }
     belief.most = std::exp(2.0 * 2.0 * std::max(0.3, belief.prior.spread));
+    // Beyond this part of what is stated no reading scatters without a reason.
+    const double more = p.base.sigma_mm.squaredNorm() / p.stated_sigma_mm.squaredNorm();
+    belief.most *= std::min(1.0, rules::most_scatter * rules::most_scatter / more);
     if (belief.model.source != NoiseSource::assumed) return belief;
     const Eigen::VectorXd white = residual_mm.cwiseQuotient(round.sigma_mm);
     if (!take_sides(noise_of_sides(rows, white, belief.prior.least), belief))
-        take_neighbours(noise_of_neighbours(p.replay, round.used, white), belief);
+        take_neighbours(noise_of_neighbours(p.replay, round.used, residual_mm, round.sigma_mm),
+                        belief);
     return belief;
 }
 

@@ -13,6 +13,8 @@ struct Round {
     NoiseBelief noise;
     Eigen::VectorXd sigma_mm;
     bool over_sessions = false;  ///< may the machine have changed between sessions?
+    /// Of the variance of points: shared by stops, and as rotations (diagnosis/added_noise.h).
+    double shared_by_stops = 0.0, turned_by_stops = 0.0;
 };
 
 /// The noise told by repeats beside `residual_mm`, or stated, or assumed.

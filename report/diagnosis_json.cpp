@@ -157,6 +157,14 @@ std::string diagnosis_json(const diagnosis::Diagnosis& d, const std::vector<File
               {"unseen", unseen_effects(d)},
               {"inseparable", json_inseparable(d.inseparable)},
               {"readings", d.readings}};
+    if (const diagnosis::DeviceNoise& point = d.noise.point; point.shared + point.turned > 0.0) {
+        json["noise"]["point"] = json_of(point);
+        json["noise"]["point"]["turned"] = point.turned;
+    }
+    for (const diagnosis::AddedNoise& a : d.added)
+        json["noise"]["added"].push_back({{"device", std::string(records::name_of(a.device))},
+                                          {"stated_um", a.stated_um},
+                                          {"added_um", a.added_um}});
     if (d.after.set_aside > 0) json["after"]["set_aside"] = d.after.set_aside;
     if (!d.sessions.empty()) json["over"] = over_of(d);
     if (d.copies > 0) json["copies"] = d.copies;

@@ -117,6 +117,19 @@ std::string after_text(const diagnosis::Diagnosis& d) {
                             0);
 }
 
+/// What the rows state of their noise, if more was found.
+std::string added_words(const diagnosis::Diagnosis& d) {
+    std::string words;
+    for (const diagnosis::AddedNoise& a : d.added)
+        words += fmt::format("; the rows of {} state {}, {} add to it", records::name_of(a.device),
+                             size_words(d, a.stated_um), size_words(d, a.added_um));
+    const diagnosis::DeviceNoise& point = d.noise.point;
+    if (const double shared = point.shared + point.turned; shared > 0.0)
+        words += fmt::format("; {} % of its variance belongs to whole stops of the axes",
+                             percent(shared));
+    return words;
+}
+
 }  // namespace
 
 std::string diagnosis_text(const diagnosis::Diagnosis& d) {
@@ -127,7 +140,7 @@ std::string diagnosis_text(const diagnosis::Diagnosis& d) {
         d.verdict == diagnosis::Verdict::no_gap ? "" : ", excess " + size_words(d, d.excess_um);
     text += paragraph(fmt::format("{} readings ({} set aside), rms {}, noise {} ({}){}", d.readings,
                                   d.outliers, size_words(d, d.rms_um), size_words(d, d.noise_um),
-                                  to_string(d.noise.source), excess),
+                                  to_string(d.noise.source) + added_words(d), excess),
                       0);
     for (const std::string& sentence : d.set_up_words) text += paragraph(sentence, 2);
     for (const identification::FoundSide& s : d.sides) text += fmt::format("  {}\n", to_string(s));

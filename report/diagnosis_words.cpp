@@ -321,6 +321,9 @@ std::string noise_words(const diagnosis::Diagnosis& d) {
         case diagnosis::NoiseSource::given:
             return size + "as the setup states it; nothing was repeated to check it.";
         case diagnosis::NoiseSource::assumed:
+            if (!d.added.empty())
+                return size + fmt::format("more than the rows state: {} scatter besides.",
+                                          size_words(d, d.added.front().added_um));
             return size +
                    "assumed: nothing was repeated, and the residual is larger or smaller than the "
                    "stated noise. Repeat some poses to confirm it.";

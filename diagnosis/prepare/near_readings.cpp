@@ -62,7 +62,8 @@ double variance_of(std::vector<double> squares) {
 }  // namespace
 
 NeighbourNoise noise_of_neighbours(const emulator::Replay& replay, const std::vector<bool>& used,
-                                   const Eigen::VectorXd& white) {
+                                   const Eigen::VectorXd& left_mm,
+                                   const Eigen::VectorXd& sigma_mm) {
     const std::vector<Eigen::VectorXd> places = relative_positions(replay);
     const auto counts = [&](std::size_t i) {
         const records::Device device = replay.contact(i).device;
@@ -78,9 +79,10 @@ NeighbourNoise noise_of_neighbours(const emulator::Replay& replay, const std::ve
             const double distance = (places[i] - places[j]).squaredNorm();
             if (distance >= nearest) continue;
             nearest = distance;
-            difference = white(static_cast<Eigen::Index>(i)) - white(static_cast<Eigen::Index>(j));
+            const auto a = static_cast<Eigen::Index>(i), b = static_cast<Eigen::Index>(j);
+            difference = (left_mm(a) - left_mm(b)) / std::hypot(sigma_mm(a), sigma_mm(b));
         }
-        if (nearest < near * near) squares.push_back(0.5 * difference * difference);
+        if (nearest < near * near) squares.push_back(difference * difference);
     }
     if (squares.size() < least_pairs) return {};
     const double doubt = doubt_of_one / std::sqrt(static_cast<double>(squares.size()));

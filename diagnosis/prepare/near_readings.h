@@ -11,7 +11,7 @@ namespace trunnion::diagnosis {
 
 /// Noise that neighbours tell.
 struct NeighbourNoise {
-    double variance = 0.0;  ///< of whitened readings; 0 below 20 pairs
+    double variance = 0.0;  ///< relative to that of the sigmas; 0 below 20 pairs
     double doubt = 0.0;     ///< standard deviation of the variance, relative
 };
 
@@ -22,8 +22,8 @@ struct NeighbourNoise {
 /// with the telescope. Errors that follow the position are alike there and cancel; what is left is
 /// noise, or finer than the distance of the readings. The largest quarter does not count, so that a
 /// few spoiled readings do not matter. Only static readings in places of their own, which an
-/// instrument takes one by one (angle, point). `white`: residuals in sigma by device row.
+/// instrument takes one by one (angle, point). Residuals and sigmas by device row.
 NeighbourNoise noise_of_neighbours(const emulator::Replay& replay, const std::vector<bool>& used,
-                                   const Eigen::VectorXd& white);
+                                   const Eigen::VectorXd& left_mm, const Eigen::VectorXd& sigma_mm);
 
 }  // namespace trunnion::diagnosis

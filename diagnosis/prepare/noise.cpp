@@ -9,24 +9,6 @@
 namespace trunnion::diagnosis {
 namespace {
 
-Eigen::MatrixXd touch_covariance(const emulator::Replay& replay,
-                                 const std::vector<Eigen::Index>& rows, const DeviceNoise& noise) {
-    const auto n = static_cast<Eigen::Index>(rows.size());
-    Eigen::MatrixXd v(n, n);
-    for (Eigen::Index i = 0; i < n; ++i)
-        for (Eigen::Index j = 0; j < n; ++j) {
-            const Vector3& a =
-                replay.contact(static_cast<std::size_t>(rows[static_cast<std::size_t>(i)]))
-                    .direction_M;
-            const Vector3& b =
-                replay.contact(static_cast<std::size_t>(rows[static_cast<std::size_t>(j)]))
-                    .direction_M;
-            v(i, j) = noise.scale * noise.scale *
-                      (noise.shared * a.dot(b) + (i == j ? 1.0 - noise.shared : 0.0));
-        }
-    return v;
-}
-
 /// Innovations of "memory + white" noise: the Kalman filter of the shared state predicts each step.
 struct PassFilter {
     explicit PassFilter(const DeviceNoise& noise)
@@ -170,16 +152,80 @@ std::vector<NoiseBlock> noise_blocks(const emulator::Replay& replay,
     return blocks;
 }
 
+namespace {
+
+/// How a rotation of the machine at a stop moves each reading of its targets, mean square 1; zero
+/// where all stand at one point.
+Eigen::MatrixXd turns_of(const emulator::Replay& replay, const std::vector<Eigen::Index>& rows) {
+    constexpr double no_arm_mm = 1e-3;
+    const auto contact = [&](Eigen::Index row) -> const emulator::Contact& {
+        return replay.contact(static_cast<std::size_t>(row));
+    };
+    Vector3 middle = Vector3::Zero();
+    for (const Eigen::Index row : rows) middle += contact(row).commanded_I_mm;
+    middle /= static_cast<double>(rows.size());
+    Eigen::MatrixXd turns(static_cast<Eigen::Index>(rows.size()), 3);
+    for (Eigen::Index k = 0; k < turns.rows(); ++k) {
+        const emulator::Contact& c = contact(rows[static_cast<std::size_t>(k)]);
+        turns.row(k) = (c.commanded_I_mm - middle).cross(c.direction_I).transpose();
+    }
+    const double mean = turns.squaredNorm() / static_cast<double>(rows.size());
+    if (mean < no_arm_mm * no_arm_mm) return Eigen::MatrixXd::Zero(turns.rows(), 3);
+    return turns / std::sqrt(mean);
+}
+
+}  // namespace
+
+Eigen::MatrixXd shared_covariance(const emulator::Replay& replay,
+                                  const std::vector<Eigen::Index>& rows, const DeviceNoise& noise) {
+    const auto n = static_cast<Eigen::Index>(rows.size());
+    Eigen::MatrixXd directions(n, 3);
+    for (Eigen::Index k = 0; k < n; ++k)
+        directions.row(k) =
+            replay.contact(static_cast<std::size_t>(rows[static_cast<std::size_t>(k)]))
+                .direction_M.transpose();
+    Eigen::MatrixXd v = noise.shared * directions * directions.transpose();
+    v.diagonal().array() += 1.0 - noise.shared - noise.turned;
+    if (noise.turned > 0.0) {
+        const Eigen::MatrixXd turns = turns_of(replay, rows);
+        v += noise.turned * turns * turns.transpose();
+    }
+    return noise.scale * noise.scale * v;
+}
+
+std::vector<NoiseBlock> stops_of(const std::vector<NoiseBlock>& blocks,
+                                 const emulator::Replay& replay) {
+    std::vector<NoiseBlock> joined;
+    for (const NoiseBlock& block : blocks) {
+        const auto at = static_cast<std::size_t>(block.rows.front());
+        const auto same_stop = [&](const NoiseBlock& last) {
+            const auto before = static_cast<std::size_t>(last.rows.back());
+            return last.device == records::Device::point && before + 1 == at &&
+                   replay.session(before) == replay.session(at) &&
+                   replay.sample(before).position.value == replay.sample(at).position.value;
+        };
+        if (block.device == records::Device::point && !joined.empty() && same_stop(joined.back()))
+            joined.back().rows.insert(joined.back().rows.end(), block.rows.begin(),
+                                      block.rows.end());
+        else
+            joined.push_back(block);
+    }
+    return joined;
+}
+
 Whitener::Whitener(const emulator::Replay& replay, std::vector<NoiseBlock> blocks,
                    const NoiseModel& noise, const Eigen::VectorXd& sigma_mm)
-    : replay_(replay), blocks_(std::move(blocks)), noise_(noise), sigma_mm_(sigma_mm) {}
+    : replay_(replay), blocks_(std::move(blocks)), noise_(noise), sigma_mm_(sigma_mm) {
+    if (noise_.point.shared + noise_.point.turned > 0.0) blocks_ = stops_of(blocks_, replay_);
+}
 
-void Whitener::whiten_touches(const NoiseBlock& block, Eigen::MatrixXd& m) const {
+void Whitener::whiten_shared(const NoiseBlock& block, Eigen::MatrixXd& m) const {
     const auto n = static_cast<Eigen::Index>(block.rows.size());
     Eigen::MatrixXd part(n, m.cols());
     for (Eigen::Index k = 0; k < n; ++k)
         part.row(k) = m.row(block.rows[static_cast<std::size_t>(k)]);
-    const Eigen::LLT<Eigen::MatrixXd> llt(touch_covariance(replay_, block.rows, noise_.touch));
+    const Eigen::LLT<Eigen::MatrixXd> llt(
+        shared_covariance(replay_, block.rows, noise_.of(block.device)));
     llt.matrixL().solveInPlace(part);
     for (Eigen::Index k = 0; k < n; ++k)
         m.row(block.rows[static_cast<std::size_t>(k)]) = part.row(k);
@@ -208,8 +254,10 @@ void Whitener::apply(Eigen::MatrixXd& m) const {
     m = sigma_mm_.cwiseInverse().asDiagonal() * m;
     for (const NoiseBlock& block : blocks_) {
         const DeviceNoise& noise = noise_.of(block.device);
-        if (noise.shared > 0.0 && block.device == records::Device::touch) {
-            whiten_touches(block, m);
+        const bool stop =
+            block.device == records::Device::point && noise.shared + noise.turned > 0.0;
+        if (stop || (noise.shared > 0.0 && block.device == records::Device::touch)) {
+            whiten_shared(block, m);
         } else if (noise.shared > 0.0 && block.device == records::Device::ballbar) {
             whiten_pass(block, m);
         } else {

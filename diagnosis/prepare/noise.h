@@ -15,12 +15,16 @@ const char* to_string(NoiseSource source);
 /// Covariance of one device's readings, in units of each row's stated sigma:
 ///   sphere   scale^2
 ///   touch    scale^2 ((1 - shared) delta + shared n_i . n_j) within the touches of one pose
+///   point    scale^2 ((1 - shared - turned) delta + shared n_i . n_j + turned m_i . m_j) within
+///   the
+///            targets read at one stop of the axes; m: arm x direction, of mean square 1 in a stop
 ///   ballbar  scale^2 ((1 - shared) delta + shared memory^|i - j|) along one pass
 ///   others   scale^2
 struct DeviceNoise {
     double scale = 1.0;
     double shared = 0.0;  ///< fraction of the variance shared by neighbours
     double memory = 0.9;  ///< correlation of the shared part from one ballbar sample to the next
+    double turned = 0.0;  ///< of points: fraction shared as a rotation of the stop
 
     /// Number of independent readings with the same information about the variance as `rows` of
     /// these.
@@ -54,6 +58,14 @@ struct NoiseBlock {
 std::vector<NoiseBlock> noise_blocks(const emulator::Replay& replay,
                                      const records::ReadingTable& table);
 
+/// The same with one block for all that an instrument reads at one stop of the axes: what the
+/// machine does not repeat moves all targets alike.
+std::vector<NoiseBlock> stops_of(const std::vector<NoiseBlock>& blocks,
+                                 const emulator::Replay& replay);
+/// Covariance of touches, or of the targets of a stop, in their sigma.
+Eigen::MatrixXd shared_covariance(const emulator::Replay& replay,
+                                  const std::vector<Eigen::Index>& rows, const DeviceNoise& noise);
+
 /// Multiplies by the inverse square root of the noise covariance, block by block.
 class Whitener {
   public:
@@ -64,7 +76,7 @@ class Whitener {
     Eigen::VectorXd apply(const Eigen::VectorXd& v) const;
 
   private:
-    void whiten_touches(const NoiseBlock& block, Eigen::MatrixXd& m) const;
+    void whiten_shared(const NoiseBlock& block, Eigen::MatrixXd& m) const;
     void whiten_pass(const NoiseBlock& block, Eigen::MatrixXd& m) const;
 
     const emulator::Replay& replay_;

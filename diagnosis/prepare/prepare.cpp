@@ -180,6 +180,7 @@ Prepared::Prepared(const setup::Setup& setup, const records::ReadingTable& readi
         identification::choose_sides(setup, table, replay, catalogue, setup.model.modelled);
     open_sides = sides_to_find(replay, sides);
     base = identification::fit_base(setup, table, replay, catalogue, setup.model.modelled);
+    stated_sigma_mm = base.sigma_mm;
     blocks = noise_blocks(replay, table);
     rounding_mm = identification::rounding(table, replay);
     const std::vector<Eigen::Index> cycles = cycles_of(replay, table);

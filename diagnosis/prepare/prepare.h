@@ -1,6 +1,8 @@
 // The first stage: readings with their simulation, and all constant data of later stages.
 #pragma once
 
+#include <map>
+
 #include "diagnosis/prepare/noise.h"
 #include "identification/unknown_sides.h"
 
@@ -32,8 +34,14 @@ struct Prepared {
     std::vector<std::size_t> open_sides;  ///< indices in Replay::unknown_sides: those without
                                           ///< influence on it
     std::vector<identification::FoundSide>
-        sides;                       ///< sides that influence base or causes, as used in the fit
-    identification::BaseModel base;  ///< location errors and set-up; residual in mm
+        sides;                        ///< sides that influence base or causes, as used in the fit
+    identification::BaseModel base;   ///< location errors and set-up; residual in mm
+    Eigen::VectorXd stated_sigma_mm;  ///< of each device row, without what was found to add to it
+    std::map<records::Device, double> added_mm;  ///< what was found (diagnosis/added_noise.h)
+    double added(records::Device device) const {
+        const auto found = added_mm.find(device);
+        return found == added_mm.end() ? 0.0 : found->second;
+    }
     std::vector<NoiseBlock> blocks;
     std::vector<Eigen::Index> cycle;  ///< of a laser test (diagnosis/prepare/cycles.h); else empty
     Eigen::VectorXd rounding_mm;      ///< deviation of each device row by its last digit, mm or rad

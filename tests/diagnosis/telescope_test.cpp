@@ -158,4 +158,49 @@ TEST_CASE("a large droop that has a rival is written", "[diagnosis]") {
     CHECK(d.writes_causes);
 }
 
+namespace {
+
+/// Stars whose rows state 0.3 to 8 times `sigma_rad` / 5; `added_rad` scatters besides.
+records::ReadingTable read_with_sigmas(const setup::Setup& real, double added_rad, unsigned seed) {
+    records::ReadingTable table = emulator::predicted(real, sky(70), effects::active_models(real));
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal;
+    for (records::Reading& row : table.rows) {
+        row.sigma_mm = 0.2 * sigma_rad * std::clamp(std::exp(normal(random)), 0.3, 8.0);
+        *row.value_mm += std::hypot(*row.sigma_mm, added_rad) * normal(random);
+    }
+    return table;
+}
+
+}  // namespace
+
+// The sigma of a row is that of the fit of a beam: the rows of the smallest ones ruled, and what
+// they scatter was explained by tables that were not there.
+TEST_CASE("noise that adds to what rows state is found", "[diagnosis]") {
+    const setup::Setup real = mount("[machine.errors]\nEA0C_rad = 3e-4\nEB0C_rad = -2e-4\n");
+    for (unsigned seed = 1; seed <= 3; ++seed) {
+        const diagnosis::Diagnosis d =
+            diagnosis::diagnose(mount(), read_with_sigmas(real, 0.5 * sigma_rad, seed));
+        INFO(seed << " " << said(d));
+        REQUIRE(d.added.size() == 1);
+        CHECK(d.added.front().added_um * 1e-3 == Approx(0.5 * sigma_rad).epsilon(0.3));
+        CHECK(d.noise.source == diagnosis::NoiseSource::assumed);
+        CHECK(d.verdict == diagnosis::Verdict::explained);
+        CHECK(probability_of(d, "location") > 0.9);
+        for (const diagnosis::Cause& c : d.causes)
+            CHECK((c.effect == "location" || c.probability < 0.9));
+    }
+}
+
+TEST_CASE("rows that state their noise rightly are believed", "[diagnosis]") {
+    const setup::Setup real = mount("[machine.errors]\nEA0C_rad = 3e-4\nEB0C_rad = -2e-4\n");
+    for (unsigned seed = 1; seed <= 3; ++seed) {
+        const diagnosis::Diagnosis d =
+            diagnosis::diagnose(mount(), read_with_sigmas(real, 0.0, seed));
+        INFO(seed << " " << said(d));
+        CHECK(d.added.empty());
+        CHECK(probability_of(d, "location") > 0.9);
+    }
+}
+
 }  // namespace trunnion
