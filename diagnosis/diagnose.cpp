@@ -89,13 +89,11 @@ double likelihood_of(const Searched& s) {
 }
 
 /// Takes the search without doubtful readings where these are more probably spoiled than explained
-/// by what the search with them found. True where they are left out. `scale`: of the whitened rows,
-/// in the unit of the doubtful residuals.
-bool leave_out_doubtful(const Prepared& p, const DoubtfulReadings& doubtful, double scale,
-                        Searched& s, Round& round, KeySearch& keys,
-                        const std::function<bool()>& go_on) {
+/// by what the search with them found. True where they are left out.
+bool leave_out_doubtful(const Prepared& p, const DoubtfulReadings& doubtful, Searched& s,
+                        Round& round, const Again& again) {
     if (doubtful.rows.empty()) return false;
-    const double left = s.model.variances.nu * scale;
+    const double left = s.model.variances.nu * doubtful.scale;
     const auto is_free = [&](std::size_t m) {
         const GroupKind kind = s.design.group(m).kind;
         return kind == GroupKind::table || kind == GroupKind::driver;
@@ -104,8 +102,8 @@ bool leave_out_doubtful(const Prepared& p, const DoubtfulReadings& doubtful, dou
     if (!free && left < explained_left * doubtful.usual) return false;  // these follow anything
     Round fewer = round;
     leave_out(p, doubtful.rows, fewer);
-    Searched rest = search_of(p, fewer, keys, nullptr, go_on);
-    const double spoiled = likelihood_of_spoiled(doubtful, scale);
+    Searched rest = again(p, fewer);
+    const double spoiled = likelihood_of_spoiled(doubtful);
     if (likelihood_of(rest) + spoiled < likelihood_of(s) + rules::least_evidence) return false;
     s = std::move(rest);
     round = std::move(fewer);
@@ -127,17 +125,14 @@ LinearModel named_model(const Searched& s, std::size_t rows) {
 
 /// Doubtful beside the set-up alone, or else beside the named effects: a large one (the tilt of a
 /// mount) hides them.
-void leave_out_spoiled(const Prepared& p, Searched& s, Round& round, KeySearch& keys,
-                       const std::function<bool()>& go_on) {
-    const DoubtfulReadings doubtful = doubtful_readings(p, set_up_of(p.base), round.used);
-    const double scale =
-        doubtful.rows.empty()
-            ? 1.0
-            : round.noise.model.of(p.replay.contact(doubtful.rows.front()).device).scale;
-    if (leave_out_doubtful(p, doubtful, scale, s, round, keys, go_on)) return;
+void leave_out_spoiled(const Prepared& p, Searched& s, Round& round, const Again& again) {
+    DoubtfulReadings doubtful = doubtful_readings(p, set_up_of(p.base), round.used);
+    if (!doubtful.rows.empty())
+        doubtful.scale = round.noise.model.of(p.replay.contact(doubtful.rows.front()).device).scale;
+    if (leave_out_doubtful(p, doubtful, s, round, again)) return;
     const LinearModel named = named_model(s, round.used.size());
     if (named.columns.cols() == s.design.known().cols()) return;
-    leave_out_doubtful(p, doubtful_readings(p, named, round.used), 1.0, s, round, keys, go_on);
+    leave_out_doubtful(p, doubtful_readings(p, named, round.used), s, round, again);
 }
 
 /// Takes readings in again that were set aside beside the set-up alone, and fit the model: they
@@ -199,6 +194,15 @@ Diagnosis reported(const Outcome& f, DiagnosisOptions options) {
     return d;
 }
 
+/// All readings but those that are wrong beside the set-up or their own repeats.
+Round first_round(const Prepared& p, bool over_sessions) {
+    Round round{std::vector<bool>(p.replay.size(), true), {}, p.base.sigma_mm, over_sessions};
+    round.noise = belief_of(p, p.base.residual_mm, round);
+    leave_out(p, lone_probe_readings(p, round.used), round);
+    leave_out(p, unrepeated_readings(p, round.used), round);
+    return round;
+}
+
 /// The answer for a setup that has the time constants of its drives.
 Diagnosis answer_of(const setup::Setup& setup, const records::ReadingTable& table,
                     const DiagnosisOptions& options) {
@@ -222,21 +226,20 @@ Diagnosis answer_of(const setup::Setup& setup, const records::ReadingTable& tabl
     Prepared p = prepared_or_told(setup, table);
     if (options.holdout) refuse_poor_holdout(p, *options.holdout);
     if (options.over_sessions) refuse_one_session(p);
-    const std::vector<bool> all(p.replay.size(), true);
-    Round round{all, {}, p.base.sigma_mm, options.over_sessions};
-    round.noise = belief_of(p, p.base.residual_mm, round);
-    leave_out(p, lone_probe_readings(p, round.used), round);
-    leave_out(p, unrepeated_readings(p, round.used), round);
+    Round round = first_round(p, options.over_sessions);
     take_promising_sides(p);
-    std::optional<KeySearch> keys(std::in_place, p.replay, p.base);
-    watch("search among models");
-    Searched s = search_of(p, round, *keys, nullptr, options.go_on);
-    add_noise(p, s, round, [&](const Prepared& weighted, const Round& other) {
+    std::optional<KeySearch> keys;
+    int searches = 0;
+    const Again again = [&](const Prepared& weighted, const Round& other) {
+        ++searches;
         keys.emplace(weighted.replay, weighted.base);  // its columns are weighted
         return search_of(weighted, other, *keys, nullptr, options.go_on);
-    });
-    keys.emplace(p.replay, p.base);
-    leave_out_spoiled(p, s, round, *keys, options.go_on);
+    };
+    watch("search among models");
+    Searched s = again(p, round);
+    add_noise(p, s, round, again);
+    leave_out_spoiled(p, s, round, again);
+    if (searches > 1) keys.emplace(p.replay, p.base);
     const std::vector<bool> beside_set_up = round.used;
     const auto stopped = [&] { return options.go_on && !options.go_on(); };
     for (int k = 1; k < most_rounds && !stopped(); ++k) {

@@ -24,9 +24,9 @@ bool is_unstated_scatter(const Outcome& f, const Diagnosis& d) {
            f.model.members.empty();
 }
 
-/// Correlation of what is left of successive readings of one test, in its deviations: noise has
-/// none.
-double alike_in_time(const Outcome& f) {
+/// True where what is left of successive readings of one test is correlated, as noise is not.
+bool is_alike_in_time(const Outcome& f) {
+    constexpr double alike = 4.0;  // deviations: chance below 1e-4
     double product = 0.0, square = 0.0, pairs = 0.0;
     std::map<std::string, double> last;
     for (std::size_t i = 0; i < f.used.size(); ++i) {
@@ -40,7 +40,7 @@ double alike_in_time(const Outcome& f) {
         }
         last[test] = left;
     }
-    return square > 0.0 && pairs > 2.0 ? product / square * std::sqrt(pairs) : 0.0;
+    return pairs > 2.0 && product * std::sqrt(pairs) > alike * square;
 }
 
 /// Probability that something is missing in the model. What left-out readings do not confirm may
@@ -111,8 +111,7 @@ Cause unknown_cause(const Outcome& f, const Diagnosis& d) {
             f.judgement.scatter);
     } else if (is_unstated_scatter(f, d) && places.empty()) {
         // Nobody states the noise: it may be that large as well as not.
-        constexpr double alike = 4.0;  // chance below 1e-4
-        const bool follows_time = alike_in_time(f) > alike;
+        const bool follows_time = is_alike_in_time(f);
         cause.probability = follows_time ? rules::sure : 0.5;
         cause.what =
             follows_time

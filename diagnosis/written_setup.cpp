@@ -209,9 +209,9 @@ struct Alone {
 };
 
 /// Parts of the readings that are left out as a whole. Where all passes are over one path, there is
-/// no other one to predict it from: then each pass. Of a laser or an angle sensor on one axis, whose
-/// passes lead over the same places, those blocks of which others see the places: nothing predicts
-/// an end of the travel that is left out in all passes.
+/// no other one to predict it from: then each pass. Of a laser or an angle sensor on one axis,
+/// whose passes lead over the same places, those blocks of which others see the places: nothing
+/// predicts an end of the travel that is left out in all passes.
 struct Paths {
     Folds folds;
     bool one = false;

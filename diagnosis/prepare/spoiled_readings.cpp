@@ -97,8 +97,8 @@ DoubtfulReadings doubtful_readings(const Prepared& prepared, const LinearModel& 
     return doubtful;
 }
 
-double likelihood_of_spoiled(const DoubtfulReadings& doubtful, double scale) {
-    const double width = 3.0 * doubtful.largest / scale;
+double likelihood_of_spoiled(const DoubtfulReadings& doubtful) {
+    const double width = 3.0 * doubtful.largest / doubtful.scale;
     const auto all = static_cast<double>(doubtful.all_visits),
                spoiled = static_cast<double>(doubtful.visits),
                rows = static_cast<double>(doubtful.rows.size());

@@ -26,6 +26,7 @@ struct DoubtfulReadings {
     std::vector<std::size_t> rows;           ///< device rows, ascending; empty: none are in doubt
     double largest = 0.0;                    ///< of their residuals, in the unit of the model
     double usual = 0.0;                      ///< robust deviation of all residuals, in the same
+    double scale = 1.0;                      ///< of the whitened rows of a search, in that unit
     std::size_t visits = 0, all_visits = 0;  ///< of a position: those of `rows`, and all
 };
 /// Readings far from a fit of `model` that they cannot influence (estimation/trimmed_fit.h), where
@@ -37,8 +38,7 @@ DoubtfulReadings doubtful_readings(const Prepared& prepared, const LinearModel& 
 
 /// Log likelihood of doubtful readings as spoiled ones, each anywhere in their spread, and of the
 /// other visits as good ones: a wrong star or a slip spoils all readings of a visit. To be added to
-/// the likelihood of a model of the others, whose rows are in units of `scale` of those of the
-/// residuals.
-double likelihood_of_spoiled(const DoubtfulReadings& doubtful, double scale);
+/// the likelihood of a model of the others.
+double likelihood_of_spoiled(const DoubtfulReadings& doubtful);
 
 }  // namespace trunnion::diagnosis

@@ -107,11 +107,14 @@ Eigen::MatrixXd Solution::covariance() const {
 
 namespace {
 
-/// How far the set-up may be off beside errors of many times the usual size, which have a mean of
-/// their own (an angle sensor of degrees), and beside zeros of cycles, whose mean is that of the
-/// set-up: in their size; else 1.
+/// How far the zeros of a laser or an angle sensor may be off beside errors of many times the usual
+/// size, which have a mean of their own, and beside zeros of cycles, whose mean is that of the
+/// set-up: in their size. Of other devices 1: what they hardly see of a set-up stays.
 double enormous_size(const Design& design, const Model& model) {
     double most = 1.0;
+    const auto& groups = design.groups();
+    if (std::none_of(groups.begin(), groups.end(), [](const auto& g) { return g.group.of_cycles; }))
+        return most;
     for (std::size_t k = 0; k < model.members.size(); ++k) {
         const double tau = model.variances.tau[k];
         const bool zero = design.group(model.members[k]).kind == GroupKind::offset;
