@@ -15,9 +15,9 @@
 namespace trunnion::diagnosis {
 namespace {
 
-constexpr double clear_evidence = 6.0;   ///< nats: by chance once in 2,000 tables
-constexpr double worth_a_search = 1.0;   ///< nats beside a model that may follow the noise
-constexpr double least_different = 1.5;  ///< stated sigmas, of the sure and the unsure rows
+constexpr double clear_evidence = 6.0;  ///< nats (assumed)
+constexpr double worth_a_search = 1.0;  ///< nats beside a model that may follow the noise (assumed)
+constexpr double least_different = 1.5;  ///< ratio of stated sigmas, unsure to sure (assumed)
 constexpr double same_size = 0.1;        ///< relative: no other noise than that known already
 constexpr int steps = 24;                ///< of the grid of sizes
 
@@ -91,7 +91,7 @@ std::vector<Eigen::Index> rows_of(const Prepared& p, const Round& round, records
     return rows;
 }
 
-/// To `added` mm of noise in these rows.
+/// To this noise in addition in these rows, mm or rad.
 Change with_added(const Prepared& p, const std::vector<Eigen::Index>& rows, double added) {
     Eigen::VectorXd times(static_cast<Eigen::Index>(rows.size()));
     for (Eigen::Index k = 0; k < times.size(); ++k) {
@@ -105,22 +105,27 @@ Change with_added(const Prepared& p, const std::vector<Eigen::Index>& rows, doub
             times.array().log().sum()};
 }
 
-/// True where the rows state sigmas that differ.
-bool differ(const Prepared& p, const std::vector<Eigen::Index>& rows, double& sure,
-            double& unsure) {
+/// Stated sigmas of the sure and of the unsure rows, mm or rad.
+struct StatedSigmas {
+    double sure = 0.0, unsure = 0.0;
+};
+
+/// None where the rows state about the same.
+std::optional<StatedSigmas> differing(const Prepared& p, const std::vector<Eigen::Index>& rows) {
+    if (rows.size() < 2) return std::nullopt;
     std::vector<double> stated;
     for (const Eigen::Index i : rows) stated.push_back(p.stated_sigma_mm(i));
-    sure = estimation::quantile(stated, 0.1);
-    unsure = estimation::quantile(stated, 0.9);
-    return stated.size() > 1 && unsure >= least_different * sure;
+    const StatedSigmas sigmas{estimation::quantile(stated, 0.1), estimation::quantile(stated, 0.9)};
+    if (sigmas.unsure < least_different * sigmas.sure) return std::nullopt;
+    return sigmas;
 }
 
 /// The noise to add to a device, mm or rad; 0 where the readings need none.
 double added_to(const Prepared& p, const OtherNoise& noise, const std::vector<Eigen::Index>& rows) {
-    double sure = 0.0, unsure = 0.0;
-    if (!differ(p, rows, sure, unsure)) return 0.0;
+    const std::optional<StatedSigmas> stated = differing(p, rows);
+    if (!stated) return 0.0;
     const double without = noise.under(with_added(p, rows, 0.0)).likelihood;
-    const double low = 0.1 * sure, high = 10.0 * unsure;
+    const double low = 0.1 * stated->sure, high = 10.0 * stated->unsure;
     double best = without, added = 0.0;
     for (int k = 0; k <= steps; ++k) {
         const double trial = low * std::pow(high / low, static_cast<double>(k) / steps);
@@ -130,6 +135,7 @@ double added_to(const Prepared& p, const OtherNoise& noise, const std::vector<Ei
     return best < without + worth_a_search ? 0.0 : added;
 }
 
+/// Gives each device the noise that adds to its rows. False where none changes.
 bool give_added(Prepared& p, const OtherNoise& noise, Round& round) {
     bool changed = false;
     for (const records::Device device : {records::Device::angle, records::Device::point}) {
@@ -151,7 +157,7 @@ bool give_added(Prepared& p, const OtherNoise& noise, Round& round) {
 
 /// Stops of all points that take part; empty where they do not hold more readings than directions.
 std::vector<NoiseBlock> full_stops(const Prepared& p, const Round& round) {
-    constexpr std::size_t least_stops = 4, least_beyond = 12, most_of_one = 300;
+    constexpr std::size_t least_stops = 4, least_beyond = 12, most_of_one = 300;  // assumed
     std::vector<NoiseBlock> stops = stops_of(p.blocks, p.replay);
     std::erase_if(stops, [](const NoiseBlock& b) { return b.device != records::Device::point; });
     std::size_t full = 0, beyond = 0;
@@ -164,9 +170,8 @@ std::vector<NoiseBlock> full_stops(const Prepared& p, const Round& round) {
         ++full;
         beyond += used - 3;
     }
-    double sure = 0.0, unsure = 0.0;
     const bool enough = full >= least_stops && beyond >= least_beyond;
-    if (!enough || differ(p, rows_of(p, round, records::Device::point), sure, unsure)) return {};
+    if (!enough || differing(p, rows_of(p, round, records::Device::point))) return {};
     return stops;
 }
 
@@ -209,6 +214,7 @@ Change with_shared(const Prepared& p, const std::vector<NoiseBlock>& stops, cons
             log_determinant};
 }
 
+/// Gives the stops of points their variances. False where none changes.
 bool give_shared(Prepared& p, const OtherNoise& noise, Round& round) {
     constexpr int sizes = 10;
     const std::vector<NoiseBlock> stops = full_stops(p, round);

@@ -229,11 +229,10 @@ std::optional<MistakenTable> mistaken_table(const setup::Setup& setup,
                                             const records::ReadingTable& table) {
     // A few readings that are refused for their number say nothing of their unit: in a larger one
     // any error is less.
-    constexpr auto few = 12;
     const auto count = std::count_if(table.rows.begin(), table.rows.end(), [](const auto& row) {
         return row.device != records::Device::none;
     });
-    if (count < few) return std::nullopt;
+    if (static_cast<std::size_t>(count) < least_readings) return std::nullopt;
     const auto best = best_slip(setup, table, 1.0);
     if (!best) return std::nullopt;
     return MistakenTable{sentence(*best), true};

@@ -252,7 +252,7 @@ NoiseBelief belief_of(const Prepared& p, const Eigen::VectorXd& residual_mm, con
         case NoiseSource::assumed: belief.prior.spread = 0.7; break;
     }
     belief.most = std::exp(2.0 * 2.0 * std::max(0.3, belief.prior.spread));
-    // Beyond this part of what is stated no reading scatters without a reason.
+    // With what was found to add, too, noise is at most a few times what is stated.
     const double more = p.base.sigma_mm.squaredNorm() / p.stated_sigma_mm.squaredNorm();
     belief.most *= std::min(1.0, rules::most_scatter * rules::most_scatter / more);
     if (belief.model.source != NoiseSource::assumed) return belief;

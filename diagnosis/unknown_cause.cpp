@@ -24,9 +24,17 @@ bool is_unstated_scatter(const Outcome& f, const Diagnosis& d) {
            f.model.members.empty();
 }
 
+constexpr const char* alike_words =
+    "Successive readings are off alike, as no noise is: something comes and goes with time that no "
+    "effect of the catalogue does";
+constexpr const char* scatter_words =
+    "More scatter than is usual of the device, without structure: no effect, position or time goes "
+    "with it. It may be noise, which nobody states here: give it in a column sigma_mm or in "
+    "[model] of the setup, or repeat readings, and it is known";
+
 /// True where what is left of successive readings of one test is correlated, as noise is not.
 bool is_alike_in_time(const Outcome& f) {
-    constexpr double alike = 4.0;  // deviations: chance below 1e-4
+    constexpr double alike = 4.0;  // deviations (assumed): chance below 1e-4
     double product = 0.0, square = 0.0, pairs = 0.0;
     std::map<std::string, double> last;
     for (std::size_t i = 0; i < f.used.size(); ++i) {
@@ -113,16 +121,7 @@ Cause unknown_cause(const Outcome& f, const Diagnosis& d) {
         // Nobody states the noise: it may be that large as well as not.
         const bool follows_time = is_alike_in_time(f);
         cause.probability = follows_time ? rules::sure : 0.5;
-        cause.what =
-            follows_time
-                ? "Successive readings are off alike, as no noise is: something comes and goes "
-                  "with time "
-                  "that no effect of the catalogue does"
-                : "More scatter than is usual of the device, without structure: no effect, "
-                  "position or "
-                  "time goes with it. It may be noise, which nobody states here: give it in a "
-                  "column "
-                  "sigma_mm or in [model] of the setup, or repeat readings, and it is known";
+        cause.what = follows_time ? alike_words : scatter_words;
     } else if (places.empty() && cause.probability < 0.5)
         cause.what = "What left-out readings do not confirm, and the others leave open";
     else if (cause.rivals.empty())

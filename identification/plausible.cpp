@@ -116,8 +116,6 @@ void tell_absurd_zero(BaseModel& model, const FitParameter& p, const records::Re
                 {table.path, 0, 0});
 }
 
-}  // namespace
-
 /// What the readings leave to a value, by their own scatter: one that they hardly see (a target
 /// almost on its axis) may come out as anything.
 double least_size(const BaseModel& model, const FitParameter& p) {
@@ -127,6 +125,8 @@ double least_size(const BaseModel& model, const FitParameter& p) {
         std::max(1.0, std::sqrt(relative.squaredNorm() / static_cast<double>(relative.size())));
     return std::abs(p.value) - sigmas * misfit * p.sigma;
 }
+
+}  // namespace
 
 /// An implausible location error means that the setup describes another machine.
 void tell_absurd_value(BaseModel& model, const FitParameter& p,

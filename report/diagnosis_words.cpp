@@ -321,8 +321,12 @@ std::string noise_words(const diagnosis::Diagnosis& d) {
         case diagnosis::NoiseSource::given:
             return size + "as the setup states it; nothing was repeated to check it.";
         case diagnosis::NoiseSource::assumed:
+            if (const double shared = d.noise.point.shared + d.noise.point.turned; shared > 0.0)
+                return size +
+                       fmt::format("{} % of its variance belongs to whole stops of the axes.",
+                                   percent(shared));
             if (!d.added.empty())
-                return size + fmt::format("more than the rows state: {} scatter besides.",
+                return size + fmt::format("more than the rows state: {} adds to it.",
                                           size_words(d, d.added.front().added_um));
             return size +
                    "assumed: nothing was repeated, and the residual is larger or smaller than the "

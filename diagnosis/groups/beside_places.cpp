@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/units.h"
+#include "diagnosis/prepare/cycles.h"
 #include "estimation/free_form.h"
 #include "estimation/projection.h"
 
@@ -13,21 +14,6 @@ namespace trunnion::diagnosis {
 namespace {
 
 constexpr std::size_t most_places = 40;  ///< as a free form has
-
-/// The only axis that moves; empty for none or several.
-std::optional<Axis> only_moving(const Prepared& p) {
-    std::optional<Axis> only;
-    for (const Axis axis : p.table.axes) {
-        const double first = p.replay.sample(0).position[axis];
-        bool moves = false;
-        for (std::size_t i = 1; i < p.replay.size() && !moves; ++i)
-            moves = p.replay.sample(i).position[axis] != first;
-        if (!moves) continue;
-        if (only) return std::nullopt;
-        only = axis;
-    }
-    return only;
-}
 
 /// Of a rotary axis within its turn.
 std::vector<double> places_in_turn(const Prepared& p, Axis axis) {
@@ -41,20 +27,10 @@ std::vector<double> places_in_turn(const Prepared& p, Axis axis) {
 
 }  // namespace
 
-bool have_one_direction(const emulator::Replay& replay) {
-    for (std::size_t i = 0; i < replay.size(); ++i) {
-        const records::Device device = replay.contact(i).device;
-        if (device != records::Device::linear && device != records::Device::angle) return false;
-    }
-    return true;
-}
-
 Eigen::MatrixXd beside_places(const Prepared& prepared, const Whitener& whitener,
                               Eigen::MatrixXd white) {
-    if (!have_one_direction(prepared.replay) || is_one_sweep(prepared.replay, prepared.table.axes))
-        return white;
-    const std::optional<Axis> axis = only_moving(prepared);
-    if (!axis) return white;
+    const std::optional<Axis> axis = measured_axis(prepared.replay, prepared.table);
+    if (!axis || is_one_sweep(prepared.replay, prepared.table.axes)) return white;
     const std::vector<double> places = places_in_turn(prepared, *axis);
     // With a place for every two readings half of what they tell is left to time.
     const std::vector<double> knots =

@@ -7,12 +7,9 @@
 
 namespace trunnion::diagnosis {
 
-/// True for readings of a laser, an autocollimator or a reference encoder: their zero is one value
-/// along the axis. What a probe reads may move in every direction.
-bool have_one_direction(const emulator::Replay& replay);
-
 /// Whitened columns of a driver, made orthogonal to all that depends on the position of the axis,
-/// where one axis alone moves and passes its places again. A pass at even speed is a course of
+/// where a laser, an autocollimator or a reference encoder reads one axis, which passes its places
+/// again. A pass at even speed is a course of
 /// time: what both could be is an error of the axis, and time has what differs from pass to pass.
 /// Other readings: unchanged.
 Eigen::MatrixXd beside_places(const Prepared& prepared, const Whitener& whitener,

@@ -19,6 +19,14 @@ constexpr std::size_t most_time_knots = 48;
 constexpr Eigen::Index most_time_columns = 32;
 constexpr double part_of_time = 1.0 / 20.0;  ///< that a state lasts, of the whole test (assumed)
 
+/// True for readings of a laser, an autocollimator or a reference encoder: their zero is one value
+/// along the axis. What a probe reads may move in every direction (driver_groups.cpp).
+bool have_one_direction(const emulator::Replay& replay) {
+    for (std::size_t i = 0; i < replay.size(); ++i)
+        if (!reads_targets(replay.contact(i).device)) return false;
+    return true;
+}
+
 /// Smooth courses of time without their mean: rows x columns.
 Eigen::MatrixXd courses_of_time(const Prepared& p) {
     std::vector<double> times;

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "diagnosis/prepare/cycles.h"
 #include "estimation/scatter.h"
 
 namespace trunnion::diagnosis {
@@ -15,15 +16,6 @@ constexpr std::size_t least_changes = 5;
 /// Relative variance of the mean square of so many changes, times their number: neighbours share a
 /// difference (von Neumann 1941; 2 of independent ones).
 constexpr double doubt_of_changes = 3.0;
-
-/// The axis along which the lines were read.
-std::optional<Axis> line_axis(const RepeatedRows& rows) {
-    for (const Axis axis : rows.table.axes)
-        for (std::size_t i = 0; i < rows.replay.size(); ++i)
-            if (rows.replay.sample(i).position[axis] != rows.replay.sample(0).position[axis])
-                return axis;
-    return {};
-}
 
 /// The first reading of a target from each side.
 struct Sides {
@@ -51,8 +43,8 @@ std::map<std::pair<Eigen::Index, long>, Sides> targets_of_cycles(const RepeatedR
 
 NeighbourNoise noise_of_sides(const RepeatedRows& rows, const Eigen::VectorXd& white,
                               double least) {
-    const std::optional<Axis> axis = rows.cycle.empty() ? std::nullopt : line_axis(rows);
-    if (!axis) return {};
+    const std::optional<Axis> axis = measured_axis(rows.replay, rows.table);
+    if (!axis || rows.cycle.empty()) return {};
     std::vector<double> changes;
     std::optional<std::pair<Eigen::Index, double>> before;
     for (const auto& [target, sides] : targets_of_cycles(rows, white, *axis)) {

@@ -8,10 +8,6 @@
 #include "diagnosis/prepare/noise.h"
 
 namespace trunnion::diagnosis {
-namespace {
-
-/// The only axis that moves in the readings of a laser or an autocollimator; none if there are
-/// several or other readings.
 std::optional<Axis> measured_axis(const emulator::Replay& replay,
                                   const records::ReadingTable& table) {
     std::optional<Axis> moving;
@@ -27,8 +23,6 @@ std::optional<Axis> measured_axis(const emulator::Replay& replay,
     }
     return moving;
 }
-
-}  // namespace
 
 std::vector<Eigen::Index> cycles_of(const emulator::Replay& replay,
                                     const records::ReadingTable& table) {

@@ -16,8 +16,7 @@ const char* to_string(NoiseSource source);
 ///   sphere   scale^2
 ///   touch    scale^2 ((1 - shared) delta + shared n_i . n_j) within the touches of one pose
 ///   point    scale^2 ((1 - shared - turned) delta + shared n_i . n_j + turned m_i . m_j) within
-///   the
-///            targets read at one stop of the axes; m: arm x direction, of mean square 1 in a stop
+///            one stop of the axes; m: arm of the target x direction, of mean square 1 in a stop
 ///   ballbar  scale^2 ((1 - shared) delta + shared memory^|i - j|) along one pass
 ///   others   scale^2
 struct DeviceNoise {

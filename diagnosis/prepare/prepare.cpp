@@ -23,7 +23,6 @@
 namespace trunnion::diagnosis {
 namespace {
 
-constexpr std::size_t least_readings = 12;
 constexpr std::size_t few_poses = 25;
 
 }  // namespace

@@ -22,8 +22,11 @@ Folds make_folds(const std::vector<NoiseBlock>& blocks, std::size_t rows);
 void join_targets(const std::vector<NoiseBlock>& blocks, const emulator::Replay& replay,
                   const records::ReadingTable& table, Folds& folds);
 
-/// Constant after prepare(), except for the residual of nonlinear readings and for sides not given
-/// by the table.
+/// Fewer allow no diagnosis.
+inline constexpr std::size_t least_readings = 12;
+
+/// Constant after prepare(), except for the residual of nonlinear readings, for sides not given by
+/// the table, and for sigmas to which noise is added (diagnosis/added_noise.h).
 struct Prepared {
     Prepared(const setup::Setup& setup, const records::ReadingTable& table);
     const records::ReadingTable& table;

@@ -2,6 +2,7 @@
 // of the noise, and what the line of the form says of a scale.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <random>
 
 #include "diagnosis/diagnosis.h"
@@ -25,14 +26,24 @@ struct LineErrors {
     int runs = 1;
     double zero_um = 0.0;  ///< from run to run more
     std::size_t targets = 10;
+    double gap_from_mm = 0.0;  ///< no reversal below
+    bool smooth = false;       ///< the form is two_waves()
 };
+
+/// A smooth form that no ripple imitates, by the part of the travel.
+double two_waves(double part) {
+    return std::sin(7.0 * part + 1.0) + 0.5 * std::sin(13.0 * part + 4.0);
+}
 
 records::ReadingTable there_and_back(const LineErrors& errors, unsigned seed) {
     std::mt19937_64 engine(seed);
     std::normal_distribution<double> normal;
     std::vector<double> form_um;
     for (std::size_t k = 0; k < errors.targets; ++k)
-        form_um.push_back(errors.form_um * normal(engine));
+        form_um.push_back(
+            errors.form_um *
+            (errors.smooth ? two_waves(static_cast<double>(k) / static_cast<double>(errors.targets))
+                           : normal(engine)));
     records::ReadingTable table;
     table.path = "line.csv";
     table.axes = {Axis::X};
@@ -54,8 +65,9 @@ records::ReadingTable there_and_back(const LineErrors& errors, unsigned seed) {
     double zero_um = 0.0;
     const auto read = [&](std::size_t k, double side) {
         const double at_mm = 15.0 + 5.0 * static_cast<double>(k);
-        add(at_mm, form_um[k] + 0.5 * side * errors.gap_um + 1e-3 * errors.scale_ppm * at_mm +
-                       zero_um + errors.noise_um * normal(engine));
+        const double gap_um = at_mm < errors.gap_from_mm ? 0.0 : errors.gap_um;
+        add(at_mm, form_um[k] + 0.5 * side * gap_um + 1e-3 * errors.scale_ppm * at_mm + zero_um +
+                       errors.noise_um * normal(engine));
     };
     for (int run = 0; run < errors.runs; ++run) {
         add(14.0, {});
@@ -85,6 +97,12 @@ bool has_rival(const diagnosis::Cause& cause, const std::string& name) {
 
 }  // namespace
 
+TEST_CASE("ten readings are too few, and no table in another unit", "[diagnosis]") {
+    const records::ReadingTable line = there_and_back({.form_um = 15.0, .targets = 5}, 1);
+    CHECK_THROWS_WITH(diagnosis::diagnose(stage_without_noise(), line, {}),
+                      Catch::Contains("it takes 12 or more") && !Catch::Contains("seem to be in"));
+}
+
 // The form is twice the reversal: each alone leaves the other as scatter, and noise that nobody
 // states took both. The differences of both sides scatter by 0.85 um only.
 TEST_CASE("one run there and back tells its noise, and with it the reversal beside a form",
@@ -112,12 +130,14 @@ TEST_CASE("one run there and back without a reversal has no play", "[diagnosis]"
 
 // Errors of ten targets, 15 um each, have a line of about 330 ppm by themselves.
 TEST_CASE("the line of a form is no scale, one far beyond it is", "[diagnosis]") {
+    int lines = 0;
     for (unsigned seed = 1; seed <= 4; ++seed) {
         INFO(seed);
         const diagnosis::Diagnosis of_form =
             diagnosed_line({.form_um = 15.0, .noise_um = 2.0, .runs = 4}, seed);
         const diagnosis::Cause* line = cause_named(of_form, "X.scale");
         if (line) {
+            ++lines;
             CHECK(line->probability < 0.6);
             CHECK(has_rival(*line, "X.positioning"));
             CHECK(line->written);
@@ -129,19 +149,39 @@ TEST_CASE("the line of a form is no scale, one far beyond it is", "[diagnosis]")
         CHECK(scale->probability > 0.6);
         CHECK(scale->written);
     }
+    CHECK(lines > 0);  // else nothing was tried
 }
 
 // Which of the two has the line does not matter for a compensation.
 TEST_CASE("pitch data include the line that may be the form's own", "[diagnosis]") {
-    const diagnosis::Diagnosis d =
-        diagnosed_line({.form_um = 15.0, .noise_um = 2.0, .scale_ppm = 600.0, .runs = 4}, 2);
+    const diagnosis::Diagnosis d = diagnosed_line({.form_um = 15.0,
+                                                   .noise_um = 1.0,
+                                                   .scale_ppm = 300.0,
+                                                   .runs = 4,
+                                                   .targets = 20,
+                                                   .smooth = true},
+                                                  2);
     const diagnosis::Cause* form = cause_named(d, "X.positioning");
     const diagnosis::Cause* line = cause_named(d, "X.scale");
     REQUIRE(form);
     REQUIRE(line);
     REQUIRE(line->probability < 0.5);
     CHECK(has_rival(*form, "X.scale"));
-    if (form->holds_between) CHECK(form->includes == "X.scale");
+    REQUIRE(form->holds_between);
+    CHECK(form->includes == "X.scale");
+}
+
+// The table of a reversal has no mean, so a reversal at one end of the travel needs both.
+TEST_CASE("a reversal over a part of the travel is found beside a form", "[diagnosis]") {
+    int named = 0;
+    for (unsigned seed = 1; seed <= 6; ++seed) {
+        const diagnosis::Diagnosis d =
+            diagnosed_line({.form_um = 15.0, .gap_um = 8.0, .gap_from_mm = 42.0}, seed);
+        named += std::any_of(d.causes.begin(), d.causes.end(), [](const auto& c) {
+            return c.effect == "X.backlash" && c.probability >= 0.5;
+        });
+    }
+    CHECK(named >= 5);
 }
 
 // What is written was tried on folds that left out both readings of some targets.
