@@ -1,11 +1,14 @@
 // The noise that a diagnosis finds, and the simpler forms of a cause.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
 
 #include "base/units.h"
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/groups/candidate_groups.h"
 #include "tests/support/campaign.h"
+#include "tests/support/said.h"
 
 namespace trunnion {
 
@@ -144,6 +147,44 @@ TEST_CASE("passes at two feeds are no repeats, and what one plane shows is writt
         REQUIRE(at != d.causes.end());
         CHECK(at->probability >= 0.5);
         CHECK(at->written);
+    }
+}
+
+// An axis that is pushed to and fro while its command rests: no effect does that, and noise
+// neither.
+TEST_CASE("readings that are off alike one after the other are not called noise", "[diagnosis]") {
+    std::vector<std::string> notes;
+    const setup::Setup one = setup::parse_setup(
+        "[machine]\nname = \"m\"\nchain = \"w b X t\"\n"
+        "[machine.axis.X]\ndirection = [1, 0, 0]\n[model]\nmodelled = []\n",
+        "s.toml", notes);
+    std::mt19937_64 engine(5);
+    std::normal_distribution<double> noise(0.0, 0.02);
+    for (const bool pushed : {true, false}) {
+        records::ReadingTable read;
+        read.path = "log.csv";
+        read.axes = {Axis::X};
+        for (int k = 0; k < 111; ++k) {
+            records::Reading row;
+            row.index = k;
+            row.time_s = 0.1 * k;
+            row.test = "log";
+            row.device = records::Device::axis;
+            row.feature = "X";
+            row.commanded[Axis::X] = 10.0;
+            const double side = k / 10 % 2 == 0 ? 1.0 : -1.0;
+            row.value_mm = noise(engine) + (pushed ? 0.3 * side : 0.0);
+            read.rows.push_back(row);
+        }
+        const diagnosis::Diagnosis d = diagnosis::diagnose(one, read);
+        INFO(said(d));
+        const auto alike = std::any_of(d.causes.begin(), d.causes.end(), [](const auto& c) {
+            return c.what.find("Successive readings") != std::string::npos;
+        });
+        CHECK(alike == pushed);
+        if (pushed) CHECK(d.verdict == diagnosis::Verdict::unexplained);
+        for (const diagnosis::Cause& c : d.causes)
+            if (c.known) CHECK(c.probability < 0.5);
     }
 }
 

@@ -175,36 +175,6 @@ TEST_CASE("a lag of tens of milliseconds is named in a log whose noise nobody st
     }
 }
 
-// An axis that is pushed to and fro while its command rests: no effect does that, and noise
-// neither.
-TEST_CASE("readings that are off alike one after the other are not called noise", "[diagnosis]") {
-    std::vector<std::string> notes;
-    const setup::Setup one = setup::parse_setup(
-        "[machine]\nname = \"m\"\nchain = \"w b X t\"\n"
-        "[machine.axis.X]\ndirection = [1, 0, 0]\n[model]\nmodelled = []\n",
-        "s.toml", notes);
-    std::mt19937_64 engine(5);
-    std::normal_distribution<double> noise(0.0, 0.02);
-    for (const bool pushed : {true, false}) {
-        records::ReadingTable read = log("log", 111, 0.0);
-        for (records::Reading& row : read.rows) {
-            row.time_s *= 10.0;
-            row.commanded[Axis::X] = 10.0;
-            const double side = row.index / 10 % 2 == 0 ? 1.0 : -1.0;
-            row.value_mm = noise(engine) + (pushed ? 0.3 * side : 0.0);
-        }
-        const diagnosis::Diagnosis d = diagnosis::diagnose(one, read);
-        INFO(said(d));
-        const auto alike = std::any_of(d.causes.begin(), d.causes.end(), [](const auto& c) {
-            return c.what.find("Successive readings") != std::string::npos;
-        });
-        CHECK(alike == pushed);
-        if (pushed) CHECK(d.verdict == diagnosis::Verdict::unexplained);
-        for (const diagnosis::Cause& c : d.causes)
-            if (c.known) CHECK(c.probability < 0.5);
-    }
-}
-
 TEST_CASE("the lag of one recording is named, and nothing else", "[diagnosis]") {
     const setup::Setup setup = machine();
     setup::Setup real = setup;
