@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "diagnosis/advice/next_measurement.h"
+#include "diagnosis/bent_sight.h"
 #include "diagnosis/beyond_command.h"
 #include "diagnosis/causes.h"
 #include "diagnosis/changes.h"
@@ -118,8 +119,9 @@ void describe_size(const Outcome& f, const Solution& solution, Diagnosis& d) {
         const double nu = f.model.variances.nu;
         // Of an unexplained gap the noise part is unknown.
         const bool unknown = f.judgement.gap && f.judgement.part < rules::partly;
-        if (unknown || !d.added.empty() || std::abs(std::log(nu)) > std::max(noise_is_off, chance))
-            d.noise.source = NoiseSource::assumed;
+        const bool off = std::abs(std::log(nu)) > std::max(noise_is_off, chance);
+        if (off) d.stated_um = other_stated_um(f);
+        if (unknown || off || !d.added.empty()) d.noise.source = NoiseSource::assumed;
         for (const records::Device device :
              {records::Device::sphere, records::Device::touch, records::Device::ballbar})
             d.noise.of(device).scale *= nu;
@@ -281,15 +283,6 @@ void tell_sessions(const Outcome& f, const std::vector<Claim>& claims, Diagnosis
     d.changes = changes_of(told, solved(told.design, told.model), probability);
 }
 
-/// By its share among the causes; what is rather not there stands last, like any other cause.
-void add_unknown(const Outcome& f, Diagnosis& d) {
-    Cause unknown = unknown_cause(f, d);
-    const bool likely = unknown.probability >= rules::claimed;
-    const auto at = std::find_if(d.causes.begin(), d.causes.end(),
-                                 [&](const Cause& c) { return likely && c.share < unknown.share; });
-    d.causes.insert(at, std::move(unknown));
-}
-
 /// True where the error of a group stands in a written model, in the same form or as a part of it.
 bool is_written(const Design& design, const Model& written, const ColumnGroup& claimed) {
     return std::any_of(written.members.begin(), written.members.end(), [&](std::size_t m) {
@@ -331,6 +324,7 @@ Told told_of(const Outcome& found, const records::ReadingTable* holdout) {
                    std::max(f.judgement.part, f.judgement.beside_zeros), weighed_variance(f)});
     merge_free_forms(f, told.claims);
     doubt_measured_surface(f, told.claims);
+    doubt_bent_sight(f, told.claims);
     return told;
 }
 
@@ -377,12 +371,12 @@ Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options) {
     }
     join_of_axis(f.prepared.catalogue, d.causes);
     tell_measured_surface(f, d.causes);
+    tell_bent_sight(d.causes);
     d.after = held_out(f, written.blocks.before, written.blocks.after);
     widen(d.after, draws.interval_elsewhere(written.model));
     d.after.high = std::max(d.after.high.value(), fitted_shrink(f, written.model));
-    if (d.verdict == Verdict::unexplained || d.verdict == Verdict::partly_explained) {
+    if (d.verdict == Verdict::unexplained || d.verdict == Verdict::partly_explained)
         add_unknown(f, d);
-    }
     if (options.holdout) {
         d.after = measured_shrink(f, d.setup, *options.holdout, options.seed);
         if (d.after.set_aside > 0)

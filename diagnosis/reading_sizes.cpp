@@ -53,6 +53,12 @@ std::vector<AddedNoise> added_noise(const Outcome& f) {
     return list;
 }
 
+std::optional<double> other_stated_um(const Outcome& f) {
+    const bool known = f.noise.model.source == NoiseSource::repeats;
+    if (known || !f.prepared.base.noise_given || !added_noise(f).empty()) return std::nullopt;
+    return rms_um(f, f.prepared.stated_sigma_mm);
+}
+
 std::size_t set_aside(const Outcome& f) {
     return static_cast<std::size_t>(std::count(f.used.begin(), f.used.end(), false));
 }

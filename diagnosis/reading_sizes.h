@@ -1,6 +1,8 @@
 // Sizes of noise, gap and shrink on the readings, um.
 #pragma once
 
+#include <optional>
+
 #include "diagnosis/diagnosis_report.h"
 
 namespace trunnion::diagnosis {
@@ -19,5 +21,8 @@ std::size_t set_aside(const Outcome& found);
 
 /// What the rows of the devices state, and what was found to add to it.
 std::vector<AddedNoise> added_noise(const Outcome& f);
+
+/// Rms of the noise that is stated, um, where the readings were taken to have another one.
+std::optional<double> other_stated_um(const Outcome& f);
 
 }  // namespace trunnion::diagnosis

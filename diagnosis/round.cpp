@@ -251,7 +251,9 @@ NoiseBelief belief_of(const Prepared& p, const Eigen::VectorXd& residual_mm, con
         case NoiseSource::given: belief.prior.spread = 0.3; break;
         case NoiseSource::assumed: belief.prior.spread = 0.7; break;
     }
-    belief.most = std::exp(2.0 * 2.0 * std::max(0.3, belief.prior.spread));
+    // What repeats tell is known better than what a data sheet states.
+    const double least_doubt = belief.model.source == NoiseSource::repeats ? 0.15 : 0.3;
+    belief.most = std::exp(2.0 * 2.0 * std::max(least_doubt, belief.prior.spread));
     // With what was found to add, too, noise is at most a few times what is stated.
     const double more = p.base.sigma_mm.squaredNorm() / p.stated_sigma_mm.squaredNorm();
     belief.most *= std::min(1.0, rules::most_scatter * rules::most_scatter / more);

@@ -27,6 +27,10 @@ bool is_unstated_scatter(const Outcome& f, const Diagnosis& d) {
 constexpr const char* alike_words =
     "Successive readings are off alike, as no noise is: something comes and goes with time that no "
     "effect of the catalogue does";
+constexpr const char* near_words =
+    "Readings at near places are off alike, as no noise is: an error follows the position in a "
+    "shape that no effect of the catalogue has, or finer than places left out can confirm. More "
+    "places would tell";
 constexpr const char* scatter_words =
     "More scatter than is usual of the device, without structure: no effect, position or time goes "
     "with it. It may be noise, which nobody states here: give it in a column sigma_mm or in "
@@ -66,21 +70,8 @@ double probability_of_unknown(const Outcome& f) {
     return odds / (1.0 + odds);
 }
 
-}  // namespace
-
-std::string set_aside_words(const Outcome& f) {
-    constexpr int most = 10;
-    std::string words;
-    int count = 0;
-    for (std::size_t i = 0; i < f.used.size(); ++i) {
-        if (f.used[i] || ++count > most) continue;
-        const records::Reading& row = f.prepared.table.rows[f.prepared.replay.table_row(i)];
-        words += fmt::format("{}{}", words.empty() ? "" : ", ", row.index);
-        if (row.line > 0) words += fmt::format(" (line {})", row.line);
-    }
-    return "set aside, because they fit nothing: readings " + words + (count > most ? ", .." : "");
-}
-
+/// What the causes leave, with the probability that it is more than noise and than what they leave
+/// open.
 Cause unknown_cause(const Outcome& f, const Diagnosis& d) {
     Cause cause;
     cause.effect = "unknown";
@@ -117,6 +108,9 @@ Cause unknown_cause(const Outcome& f, const Diagnosis& d) {
             "something "
             "disturbs the readings",
             f.judgement.scatter);
+    } else if (f.judgement.alike_near && places.empty()) {
+        cause.probability = rules::sure;
+        cause.what = near_words;
     } else if (is_unstated_scatter(f, d) && places.empty()) {
         // Nobody states the noise: it may be that large as well as not.
         const bool follows_time = is_alike_in_time(f);
@@ -131,6 +125,29 @@ Cause unknown_cause(const Outcome& f, const Diagnosis& d) {
     cause.what += places;
     cause.heldout = held_out(f, f.judgement.left_before, f.judgement.left_before);
     return cause;
+}
+
+}  // namespace
+
+std::string set_aside_words(const Outcome& f) {
+    constexpr int most = 10;
+    std::string words;
+    int count = 0;
+    for (std::size_t i = 0; i < f.used.size(); ++i) {
+        if (f.used[i] || ++count > most) continue;
+        const records::Reading& row = f.prepared.table.rows[f.prepared.replay.table_row(i)];
+        words += fmt::format("{}{}", words.empty() ? "" : ", ", row.index);
+        if (row.line > 0) words += fmt::format(" (line {})", row.line);
+    }
+    return "set aside, because they fit nothing: readings " + words + (count > most ? ", .." : "");
+}
+
+void add_unknown(const Outcome& f, Diagnosis& d) {
+    Cause unknown = unknown_cause(f, d);
+    const bool likely = unknown.probability >= rules::claimed;
+    const auto at = std::find_if(d.causes.begin(), d.causes.end(),
+                                 [&](const Cause& c) { return likely && c.share < unknown.share; });
+    d.causes.insert(at, std::move(unknown));
 }
 
 }  // namespace trunnion::diagnosis

@@ -8,8 +8,9 @@ namespace trunnion::diagnosis {
 /// The first readings that were set aside, by their index and the line of their file.
 std::string set_aside_words(const Outcome& found);
 
-/// What the causes leave, with the probability that it is more than noise and than what they leave
-/// open.
-Cause unknown_cause(const Outcome& found, const Diagnosis& diagnosis);
+/// Adds what the causes leave, with the probability that it is more than noise and than what they
+/// leave open: by its share among the causes; what is rather not there stands last, like any other
+/// cause.
+void add_unknown(const Outcome& found, Diagnosis& diagnosis);
 
 }  // namespace trunnion::diagnosis

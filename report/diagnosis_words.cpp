@@ -85,9 +85,14 @@ std::string errors_of(const diagnosis::Cause& cause) {
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
+/// What is stated, where the readings were taken to have another noise.
+std::string stated_words(const diagnosis::Diagnosis& d) {
+    return d.stated_um ? fmt::format("; stated {}", size_words(d, *d.stated_um)) : "";
+}
+
 std::string gap_words(const diagnosis::Diagnosis& d) {
-    return fmt::format("{} rms, {} of it noise ({})", size_words(d, d.rms_um),
-                       size_words(d, d.noise_um), to_string(d.noise.source));
+    return fmt::format("{} rms, {} of it noise ({}{})", size_words(d, d.rms_um),
+                       size_words(d, d.noise_um), to_string(d.noise.source), stated_words(d));
 }
 
 /// Where the gap is nothing but the readings that were set aside.

@@ -130,9 +130,19 @@ Eigen::MatrixXd harmonics_of(const TableForm& table, const std::vector<double>& 
     return shape * std::sqrt(2.0) / shape.norm();
 }
 
+/// A single harmonic: poles of a resolver, lobes of a bearing. They share half of the prior.
+std::vector<Shape> single_harmonics(const TableForm& table, int count) {
+    std::vector<Shape> shapes;
+    for (int n = 0; n < count; ++n)
+        shapes.push_back(
+            {Eigen::MatrixXd::Identity(2 * table.orders, 2 * table.orders).middleCols(2 * n, 2),
+             -std::log(2.0 * count)});
+    return shapes;
+}
+
 /// All harmonics, decreasing beyond some order; of an angle sensor also the low ones alone, alike:
-/// at few places all of them follow noise; or a single one of a low order: poles of a resolver,
-/// lobes of a bearing. Half of the prior for each kind.
+/// at few places all of them follow noise; or a single one of a low order. Half of the prior for
+/// each kind.
 std::vector<Shape> shapes_of_turn(const Prepared& p, const TableForm& table) {
     std::vector<Shape> shapes;
     const int last = table.first_order + table.orders - 1;
@@ -148,10 +158,7 @@ std::vector<Shape> shapes_of_turn(const Prepared& p, const TableForm& table) {
         shapes.push_back(
             {harmonics_of(table, std::vector<double>(static_cast<std::size_t>(singles), 1.0))});
     for (Shape& s : shapes) s.log_prior = -std::log(2.0 * static_cast<double>(shapes.size()));
-    for (int n = 0; n < singles; ++n)
-        shapes.push_back(
-            {Eigen::MatrixXd::Identity(2 * table.orders, 2 * table.orders).middleCols(2 * n, 2),
-             -std::log(2.0 * singles)});
+    for (Shape& single : single_harmonics(table, singles)) shapes.push_back(std::move(single));
     return shapes;
 }
 
@@ -251,7 +258,10 @@ std::size_t least_knots(const Family& family) {
 /// with a value of its own at each.
 std::vector<Shape> shapes_of(const Prepared& p, const Family& family, const TableForm& table,
                              const Eigen::MatrixXd& owned) {
-    if (table.knots.empty()) return shapes_of_turn(p, table);
+    if (table.knots.empty())
+        return is_whole_turn(table.axis, places_of(p, table.axis.axis))
+                   ? shapes_of_turn(p, table)
+                   : single_harmonics(table, table.orders);
     std::vector<Shape> shapes =
         shapes_at_knots(family, table.knots, owned, has_targets(p, family, table));
     if (is_whole_turn(table.axis, table.knots) && !shapes.empty())
@@ -289,6 +299,24 @@ void add_table(Design& design, const Prepared& p, const Whitener& whitener, cons
     design.hide(design.add(std::move(line)));
 }
 
+/// The single harmonics of which part of a turn shows more than one period, and its places two
+/// each; of those with less, a slope and a bow are as good.
+void add_harmonics_of_part(Design& design, const Prepared& p, const Whitener& whitener,
+                           const Family& family, TableForm table) {
+    constexpr double least_periods = 1.5;
+    const std::vector<double> places = places_of(p, table.axis.axis);
+    const auto [low, high] = std::minmax_element(places.begin(), places.end());
+    const double turns = (*high - *low) / (2.0 * pi);
+    const auto steps = estimation::knots_of(places, 4 * last_single_order).size();
+    const int last = std::min({last_single_order, last_on_grid(places),
+                               static_cast<int>(static_cast<double>(steps) / (2.0 * turns))});
+    table.knots.clear();
+    table.first_order =
+        std::max(family.owned + 1, static_cast<int>(std::ceil(least_periods / turns)));
+    table.orders = last - table.first_order + 1;
+    if (table.orders > 0) add_table(design, p, whitener, family, table);
+}
+
 void add_family(Design& design, const Prepared& p, const Whitener& whitener, const Family& family,
                 const kinematics::AxisGeometry& axis) {
     TableForm table = form_of(p, family, axis);
@@ -304,7 +332,11 @@ void add_family(Design& design, const Prepared& p, const Whitener& whitener, con
         if (!table.knots.empty()) table.knots = both;
     }
     add_table(design, p, whitener, family, table);
-    if (table.orders == 0 || family.motion != EffectKind::positioning) return;
+    if (!family.rotary || family.motion != EffectKind::positioning) return;
+    if (table.orders == 0) {
+        add_harmonics_of_part(design, p, whitener, family, std::move(table));
+        return;
+    }
     table.orders = table.first_order = 0;
     table.knots = targets_of(p, places_of(p, axis.axis));
     if (table.knots.size() >= least_knots(family)) add_table(design, p, whitener, family, table);

@@ -59,6 +59,35 @@ double variance_of(std::vector<double> squares) {
     return sum / static_cast<double>(count) / mean_of_counted;
 }
 
+/// The residuals of a reading and its nearest neighbour, in their sigma.
+struct Pair {
+    std::size_t first, second;  ///< device rows, in order
+    double a, b;
+};
+
+/// Mean product of neighbours in its deviations, were they independent; far residuals count as
+/// three times the usual one, lest one pair of spoiled readings decides. Readings that are nearest
+/// to each other are one pair.
+double likeness_of(std::vector<Pair> pairs) {
+    constexpr double far = 3.0;
+    const auto rows = [](const Pair& p) { return std::pair(p.first, p.second); };
+    std::sort(pairs.begin(), pairs.end(),
+              [&](const Pair& x, const Pair& y) { return rows(x) < rows(y); });
+    pairs.erase(std::unique(pairs.begin(), pairs.end(),
+                            [&](const Pair& x, const Pair& y) { return rows(x) == rows(y); }),
+                pairs.end());
+    std::vector<double> squares;
+    for (const Pair& p : pairs) squares.push_back(0.5 * (p.a * p.a + p.b * p.b));
+    const double usual = std::sqrt(variance_of(squares)), most = far * usual;
+    double product = 0.0, square = 0.0;
+    for (const Pair& p : pairs) {
+        const double a = std::clamp(p.a, -most, most), b = std::clamp(p.b, -most, most);
+        product += a * b;
+        square += 0.5 * (a * a + b * b);
+    }
+    return square > 0.0 ? product / square * std::sqrt(static_cast<double>(pairs.size())) : 0.0;
+}
+
 }  // namespace
 
 NeighbourNoise noise_of_neighbours(const emulator::Replay& replay, const std::vector<bool>& used,
@@ -70,10 +99,12 @@ NeighbourNoise noise_of_neighbours(const emulator::Replay& replay, const std::ve
         return used[i] && (device == records::Device::angle || device == records::Device::point);
     };
     std::vector<double> squares;
+    std::vector<Pair> pairs;
     const std::size_t step = 1 + replay.size() / most_pairs;
     for (std::size_t i = 0; i < replay.size(); i += step) {
         if (!counts(i)) continue;
         double nearest = near * near, difference = 0.0;
+        Pair pair{};
         for (std::size_t j = 0; j < replay.size(); ++j) {
             if (j == i || !counts(j) || !is_alike(replay.contact(i), replay.contact(j))) continue;
             const double distance = (places[i] - places[j]).squaredNorm();
@@ -81,12 +112,16 @@ NeighbourNoise noise_of_neighbours(const emulator::Replay& replay, const std::ve
             nearest = distance;
             const auto a = static_cast<Eigen::Index>(i), b = static_cast<Eigen::Index>(j);
             difference = (left_mm(a) - left_mm(b)) / std::hypot(sigma_mm(a), sigma_mm(b));
+            pair = {std::min(i, j), std::max(i, j), left_mm(a) / sigma_mm(a),
+                    left_mm(b) / sigma_mm(b)};
         }
-        if (nearest < near * near) squares.push_back(difference * difference);
+        if (nearest >= near * near) continue;
+        squares.push_back(difference * difference);
+        pairs.push_back(pair);
     }
     if (squares.size() < least_pairs) return {};
     const double doubt = doubt_of_one / std::sqrt(static_cast<double>(squares.size()));
-    return {variance_of(std::move(squares)), doubt};
+    return {variance_of(std::move(squares)), doubt, likeness_of(std::move(pairs))};
 }
 
 }  // namespace trunnion::diagnosis

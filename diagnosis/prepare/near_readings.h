@@ -13,6 +13,7 @@ namespace trunnion::diagnosis {
 struct NeighbourNoise {
     double variance = 0.0;  ///< relative to that of the sigmas; 0 below 20 pairs
     double doubt = 0.0;     ///< standard deviation of the variance, relative
+    double alike = 0.0;     ///< by how many deviations neighbours are off alike, as no noise is
 };
 
 /// Variance of residuals that neighbours do not share: half the square of the difference of each

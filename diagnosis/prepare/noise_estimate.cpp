@@ -220,7 +220,8 @@ double without_spoiled(double least, std::vector<Stretch>& list) {
     return scatter.deviation;
 }
 
-constexpr double least_of_stated = 0.05;  ///< less is arithmetic
+constexpr double least_of_stated = 0.05;    ///< less is arithmetic
+constexpr double least_of_assumed = 0.002;  ///< nobody states it: a stage may be that good
 
 /// Fewer differences say no more than what is stated or usual.
 std::size_t fewest(records::Device device) {
@@ -287,8 +288,9 @@ NoiseModel noise_from_repeats(const RepeatedRows& rows, const Eigen::VectorXd& r
         usual = std::max(least, usual);
         for (Stretch& s : list)
             s.value = s.value.cwiseMax(-farthest * usual).cwiseMin(farthest * usual);
-        noise.of(device) = estimate(rows.replay, device, list,
-                                    least_of_stated * std::max(1.0, usual), 4.0 * usual);
+        const double low = start.source == NoiseSource::given ? least_of_stated : least_of_assumed;
+        noise.of(device) =
+            estimate(rows.replay, device, list, low * std::max(1.0, usual), 4.0 * usual);
         count = values_of(list).size();
         noise.of(device).scale = std::max(noise.of(device).scale, digit);
         const double independent = noise.of(device).independent(static_cast<double>(count));

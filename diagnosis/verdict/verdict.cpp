@@ -7,6 +7,7 @@
 
 #include "diagnosis/groups/few_places.h"
 #include "diagnosis/groups/ripples.h"
+#include "diagnosis/prepare/near_readings.h"
 #include "diagnosis/prepare/places.h"
 #include "diagnosis/rules/rules.h"
 #include "estimation/distributions.h"
@@ -226,6 +227,25 @@ double scatter_of(const Prepared& p, const NoiseModel& noise) {
     return most;
 }
 
+/// H. `unknowns`: of the set-up, for each reading.
+double part_of(const Judgement& j, double unknowns) {
+    const double excess = j.before - j.floor * (1.0 + unknowns);
+    return excess > 0.0 ? (j.before - j.after) / excess : 0.0;
+}
+
+/// A gap where what is left of neighbours is alike: noise is then at most what they do not share.
+void see_neighbours(const Prepared& p, const std::vector<bool>& used,
+                    const Eigen::VectorXd& remainder, double unknowns, Judgement& j) {
+    constexpr double least = 4.0;  // deviations (assumed): chance below 1e-4
+    const auto rows = static_cast<Eigen::Index>(used.size());
+    const NeighbourNoise near =
+        noise_of_neighbours(p.replay, used, remainder.head(rows), Eigen::VectorXd::Ones(rows));
+    if (near.alike < least || near.variance >= j.floor) return;
+    j.gap = j.alike_near = true;
+    j.floor = near.variance;
+    j.part = part_of(j, unknowns);
+}
+
 }  // namespace
 
 Judgement judged(FoldColumns& rows, const Prepared& prepared, const Model& model,
@@ -249,9 +269,9 @@ Judgement judged(FoldColumns& rows, const Prepared& prepared, const Model& model
     j.left_before = left.residual(zeros, zeros);
     j.before = before.mean();
     j.after = after.mean();
-    const double rank = static_cast<double>(design.projection().rank());
-    const double excess = j.before - j.floor * (1.0 + rank / std::max(1.0, design.rows()));
-    j.part = excess > 0.0 ? (j.before - j.after) / excess : 0.0;
+    const double unknowns =
+        static_cast<double>(design.projection().rank()) / std::max(1.0, design.rows());
+    j.part = part_of(j, unknowns);
     j.beside_zeros = part_beside_zeros(design, model, left, j.floor);
     for (std::size_t k = 0; k < model.members.size(); ++k) {
         std::vector<bool> rest = all, rest_predicting = predicting;
@@ -273,7 +293,7 @@ Judgement judged(FoldColumns& rows, const Prepared& prepared, const Model& model
         if (bends_at_few_places(design, prepared, model, k)) local[k] = true;
     j.between_places = share_of_tables(sizes, local) <= rules::between_part;
     // More than noise may be whatever nothing that was found predicts: a wandering machine.
-    const bool beyond_noise = std::max(nu2, j.before - j.floor * rank / design.rows()) > noise.most;
+    const bool beyond_noise = std::max(nu2, j.before - j.floor * unknowns) > noise.most;
     // So are more spoiled readings than an instrument has.
     const auto count = static_cast<double>(std::count(used.begin(), used.end(), false));
     const bool spoiled = count > rules::most_outliers * static_cast<double>(used.size());
@@ -285,6 +305,7 @@ Judgement judged(FoldColumns& rows, const Prepared& prepared, const Model& model
     // Without repeats, scatter may be structure finer than the places as well as noise.
     const bool unstated = noise.model.source == NoiseSource::assumed && !prepared.base.noise_given;
     j.gap = j.gap || j.only_scatter || (unstated && std::sqrt(nu2) > rules::most_unstated);
+    if (!j.gap && !j.repeated) see_neighbours(prepared, used, sizes.remainder, unknowns, j);
     return j;
 }
 

@@ -1,0 +1,126 @@
+#include "diagnosis/bent_sight.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "diagnosis/rules/rules.h"
+#include "estimation/distributions.h"
+
+namespace trunnion::diagnosis {
+namespace {
+
+using effects::EffectKind;
+
+constexpr double alike = 1e-3;       ///< probability of a difference that is noise (assumed)
+constexpr double small_part = 0.03;  ///< of the squares: so little else is no other cause (assumed)
+constexpr double least_sine = 0.0523;  ///< of the elevation: 3 deg, below there is no cotangent
+
+std::optional<std::size_t> droop_of(const Outcome& f) {
+    for (std::size_t k = 0; k < f.design.groups().size(); ++k) {
+        const ColumnGroup& group = f.design.group(k);
+        if (group.kind == GroupKind::textbook && group.effect->kind == EffectKind::chain_flexure &&
+            !group.is_change())
+            return k;
+    }
+    return {};
+}
+
+/// Sine of the elevation of the line of sight at a device row: the droop tilts it by the cosine.
+double sine_of_elevation(const Outcome& f, const effects::Effect& droop, std::size_t row) {
+    kinematics::Perturbation tilt;
+    const double one[] = {1.0};
+    droop.add(f.prepared.replay.sample(row), f.prepared.replay.contact(row), one, tilt);
+    double cosine = 0.0;
+    for (const auto& motion : tilt.motion) cosine = std::max(cosine, motion.tilt_rad.norm());
+    return std::sqrt(std::max(least_sine * least_sine, 1.0 - cosine * cosine));
+}
+
+/// Droop (the first column) and refraction, whitened.
+Eigen::MatrixXd bendings(const Outcome& f, std::size_t droop) {
+    const effects::Effect* effect =
+        effects::find_effect(f.prepared.catalogue, f.design.group(droop).name);
+    const Eigen::MatrixXd& own = f.design.columns(droop);
+    Eigen::MatrixXd both(own.rows(), 2);
+    both.col(0) = both.col(1) = own.col(0);
+    for (std::size_t i = 0; i < f.used.size(); ++i)
+        both(static_cast<Eigen::Index>(i), 1) /= sine_of_elevation(f, *effect, i);
+    return both;
+}
+
+/// True for the error of the axis that carries the line of sight.
+bool is_of_last_axis(const Prepared& p, const ColumnGroup& group) {
+    std::optional<Axis> last;
+    for (const kinematics::AxisGeometry& axis : p.base.setup.machine.chain.tool)
+        if (axis.rotary) last = axis.axis;
+    if (!is_cause(group.kind) || group.is_change()) return false;
+    const EffectKind motion = group.effect ? group.effect->kind : group.table.motion;
+    const std::optional<Axis> own = group.effect ? group.effect->axis : group.table.axis.axis;
+    return motion == EffectKind::positioning && own == last;
+}
+
+/// The columns of named causes beside one, and of bendings.
+Eigen::MatrixXd others(const Outcome& f, std::size_t position, const Eigen::MatrixXd& bent) {
+    Eigen::MatrixXd all = bent;
+    for (std::size_t k = 0; k < f.model.members.size(); ++k) {
+        if (k == position || f.design.group(f.model.members[k]).kind != GroupKind::textbook)
+            continue;
+        const Eigen::MatrixXd& own = f.design.columns(f.model.members[k]);
+        all.conservativeResize(Eigen::NoChange, all.cols() + own.cols());
+        all.rightCols(own.cols()) = own;
+    }
+    return f.design.projection().beside(all);
+}
+
+/// True where the others do what the claim does.
+bool do_the_same(const Outcome& f, const Eigen::VectorXd& part, const Eigen::MatrixXd& others,
+                 double freedom) {
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> fit(others);
+    const double left = (part - others * fit.solve(part)).squaredNorm();
+    const double nu = f.model.variances.nu;
+    return left < small_part * part.squaredNorm() ||
+           estimation::chi_squared_tail(left / (nu * nu), freedom) > alike;
+}
+
+bool has_air(const std::vector<std::string>& rivals) {
+    return std::find(rivals.begin(), rivals.end(), refraction) != rivals.end();
+}
+
+void add_rival(const std::string& name, Claim& claim) {
+    if (std::find(claim.rivals.begin(), claim.rivals.end(), name) == claim.rivals.end())
+        claim.rivals.push_back(name);
+}
+
+}  // namespace
+
+void doubt_bent_sight(const Outcome& f, std::vector<Claim>& claims) {
+    const std::optional<std::size_t> droop = droop_of(f);
+    if (!droop || claims.empty() || !records::only_angles(f.prepared.table)) return;
+    const Eigen::MatrixXd bent = bendings(f, *droop);
+    const Eigen::MatrixXd parts = contributions(f.design, f.model, fit_of(f.design, f.model));
+    for (Claim& claim : claims) {
+        const ColumnGroup& group = f.design.group(f.model.members[claim.position]);
+        const bool droops = group.effect && group.effect->kind == EffectKind::chain_flexure;
+        if (!droops && !is_of_last_axis(f.prepared, group)) continue;
+        const Eigen::MatrixXd beside = others(f, claim.position, droops ? bent.rightCols(1) : bent);
+        if (!do_the_same(f, parts.col(static_cast<Eigen::Index>(claim.position)), beside,
+                         static_cast<double>(group.columns())))
+            continue;
+        claim.probability = std::min(claim.probability, rules::claimed);
+        if (!droops) add_rival(f.design.group(*droop).name, claim);
+        add_rival(refraction, claim);
+    }
+}
+
+void tell_bent_sight(std::vector<Cause>& causes) {
+    for (Cause& cause : causes)
+        if (has_air(cause.rivals))
+            cause.what +=
+                ". Or the line of sight bends: refraction that was not taken off the readings goes "
+                "with the cotangent of the elevation, the droop of a tube with its cosine. These "
+                "places cannot tell them apart: the axis against a reference of its own "
+                "(autocollimator, level) would";
+}
+
+}  // namespace trunnion::diagnosis
