@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -30,10 +31,18 @@ Vector3 direction_M(const setup::Setup& setup, Axis axis) {
     return carries_work ? Vector3(-chain.find(axis)->direction) : chain.find(axis)->direction;
 }
 
+/// How far before the first target of a pass it is approached: nobody tells, so no further than the
+/// next target, lest a distance that was not driven explains a decay.
+double overrun_of(const std::vector<IsoPoint>& points, std::size_t first, const MovedAxis& moved) {
+    const double usual = moved.rotary ? overrun_rad : overrun_mm;
+    if (first + 1 == points.size()) return usual;
+    const double step = std::abs(points[first + 1].target - points[first].target);
+    return step > 0.0 ? std::min(usual, step) : usual;
+}
+
 void write_points(const std::vector<IsoPoint>& points, records::Reading row, const MovedAxis& moved,
                   RowWriter& rows) {
     const Axis axis = moved.axis;
-    const double overrun = moved.rotary ? overrun_rad : overrun_mm;
     const records::Device device = row.device;
     for (std::size_t k = 0; k < points.size(); ++k) {
         const IsoPoint& p = points[k];
@@ -45,7 +54,7 @@ void write_points(const std::vector<IsoPoint>& points, records::Reading row, con
             before.device = records::Device::none;
             before.angular = false;
             before.value_mm.reset();
-            before.commanded[axis] = p.target - overrun * p.direction;
+            before.commanded[axis] = p.target - overrun_of(points, k, moved) * p.direction;
             before.time_s = k == 0 ? p.time_s - 1.0 : 0.5 * (points[k - 1].time_s + p.time_s);
             rows.add(std::move(before), 0);
         }

@@ -189,8 +189,13 @@ Runs run_columns(const IsoSource& source, std::vector<std::string>& notes) {
     refuse_doubtful(source, runs);
     note_left_out(source, sorted, notes);
     for (const RunColumn& run : runs) way_of(source, columns[run.column].name, run.name.direction);
-    std::stable_sort(runs.begin(), runs.end(),
-                     [](const auto& a, const auto& b) { return before(a.name, b.name); });
+    // "1-, 1+, 2-" stand in the order in which they were measured; "1+, 2+, 1-, 2-" do not.
+    const bool in_order =
+        std::is_sorted(runs.begin(), runs.end(),
+                       [](const auto& a, const auto& b) { return a.name.run < b.name.run; });
+    if (!in_order)
+        std::stable_sort(runs.begin(), runs.end(),
+                         [](const auto& a, const auto& b) { return before(a.name, b.name); });
     return runs;
 }
 

@@ -14,7 +14,7 @@ struct RunColumn {
     RunName name;
 };
 
-/// In measured order: run 1 up, run 1 down, run 2 up ...
+/// The usual order of measurement: run 1 up, run 1 down, run 2 up ...
 bool before(const RunName& a, const RunName& b);
 
 /// "towards +, by the order of the targets".
@@ -22,7 +22,8 @@ std::string by_order(int way);
 /// Direction of a pass whose name is `name`. One told above the table must not contradict it.
 int way_of(const IsoSource& source, const std::string& name, int direction);
 
-/// The columns of runs in measured order; empty for a list with one value a line. A note tells the
+/// The columns of runs in measured order, which is that of the columns where their numbers rise;
+/// empty for a list with one value a line. A note tells the
 /// columns beside them that hold no readings. Throws InputError for a column of numbers beside them
 /// that is not understood, and for two columns of one pass.
 std::vector<RunColumn> run_columns(const IsoSource& source, std::vector<std::string>& notes);
