@@ -70,6 +70,26 @@ void add_cycle_group(Design& design, const Prepared& p, const Whitener& whitener
     add_group(design, whitener, std::move(group), std::move(columns));
 }
 
+/// What a zero of the probe may be set wrong in: the place of the work on the table, which turns
+/// with it, or the machine's own position.
+void add_probe_zeros(Design& design, const Prepared& p, const Whitener& whitener,
+                     const std::vector<Eigen::Index>& test, Eigen::Index count) {
+    const auto rows = static_cast<Eigen::Index>(test.size());
+    Eigen::MatrixXd of_work = Eigen::MatrixXd::Zero(rows, 3 * count), of_machine = of_work;
+    for (Eigen::Index i = 0; i < rows; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        if (test[k] < 0) continue;
+        of_work.block<1, 3>(i, 3 * test[k]) =
+            usual_zero_mm * p.base.gradient[k].work_shift_mm.transpose();
+        of_machine.block<1, 3>(i, 3 * test[k]) =
+            usual_zero_mm * p.replay.contact(k).direction_M.transpose();
+    }
+    add_group(design, whitener, group_named("zero of a test", single_tests), std::move(of_work));
+    ColumnGroup machine = group_named("zero of a test in the machine frame", single_tests);
+    machine.component = "machine frame";
+    add_group(design, whitener, std::move(machine), std::move(of_machine));
+}
+
 }  // namespace
 
 void add_offset_groups(Design& design, const Prepared& prepared, const Whitener& whitener) {
@@ -77,17 +97,7 @@ void add_offset_groups(Design& design, const Prepared& prepared, const Whitener&
     const auto rows = static_cast<Eigen::Index>(replay.size());
     Eigen::Index count = 0;
     const auto probe = tests_of(prepared, probes, count);
-    if (count > 1 && count <= most_tests) {
-        Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(rows, 3 * count);
-        for (Eigen::Index i = 0; i < rows; ++i) {
-            const auto k = static_cast<std::size_t>(i);
-            if (probe[k] >= 0)
-                columns.block<1, 3>(i, 3 * probe[k]) =
-                    usual_zero_mm * prepared.base.gradient[k].work_shift_mm.transpose();
-        }
-        add_group(design, whitener, group_named("zero of a test", single_tests),
-                  std::move(columns));
-    }
+    if (count > 1 && count <= most_tests) add_probe_zeros(design, prepared, whitener, probe, count);
     const auto other = tests_of(
         prepared, [](const emulator::Contact& c) { return !probes(c); }, count);
     if (count > 1 && count <= most_tests) {
