@@ -12,6 +12,7 @@
 #include "diagnosis/verdict/cause_evidence.h"
 #include "diagnosis/verdict/contenders.h"
 #include "diagnosis/verdict/line_of_form.h"
+#include "diagnosis/verdict/reply.h"
 #include "estimation/distributions.h"
 
 namespace trunnion::diagnosis {

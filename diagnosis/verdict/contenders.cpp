@@ -9,16 +9,16 @@
 #include "diagnosis/rules/rules.h"
 #include "diagnosis/search/model_weight.h"
 #include "diagnosis/search/offers.h"
+#include "diagnosis/verdict/reply.h"
 #include "diagnosis/verdict/verdict.h"
 
 namespace trunnion::diagnosis {
 namespace {
 
-constexpr double least_overlap = 0.1;  ///< part of a contribution that a rival must do
-constexpr double hopeless = 60.0;      ///< evidence behind, nats, that no exchange makes up for
-constexpr double family = 0.8;         ///< probability below which a free form's family is open
-constexpr std::size_t more = 2;        ///< members that it may have beyond the chosen model
-constexpr int most_replaced = 3;       ///< models that give way to a contender
+constexpr double hopeless = 60.0;  ///< evidence behind, nats, that no exchange makes up for
+constexpr double family = 0.8;     ///< probability below which a free form's family is open
+constexpr std::size_t more = 2;    ///< members that it may have beyond the chosen model
+constexpr int most_replaced = 3;   ///< models that give way to a contender
 
 /// Which groups a model must do without.
 using Excluded = std::function<bool(const ColumnGroup&)>;
@@ -75,28 +75,6 @@ Contender against(FoldColumns& rows, const Standing& chosen, Model model) {
     contender.predicted = saving.sum / per_nat;
     contender.spread = saving.spread / per_nat;
     return contender;
-}
-
-/// Causes that a contender has and the chosen model has not, with the fraction of `part` that each
-/// does in it, the largest first.
-std::vector<std::pair<double, std::size_t>> others_in(Design& design, const Model& chosen,
-                                                      const Model& contender,
-                                                      const Eigen::VectorXd& part) {
-    const Eigen::VectorXd along =
-        contributions(design, contender, fit_of(design, contender)).transpose() * part;
-    std::vector<std::pair<double, std::size_t>> found;
-    for (std::size_t k = 0; k < contender.members.size(); ++k) {
-        const std::size_t group = contender.members[k];
-        const auto same = [&](std::size_t m) {
-            return same_cause(design.group(m), design.group(group));
-        };
-        if (is_cause(design.group(group).kind) &&
-            std::none_of(chosen.members.begin(), chosen.members.end(), same))
-            found.emplace_back(-along(static_cast<Eigen::Index>(k)), group);
-    }
-    std::sort(found.begin(), found.end());
-    for (auto& [does, group] : found) does *= -1.0 / part.squaredNorm();
-    return found;
 }
 
 /// The best model without a cause, with up to `more` members more.
@@ -333,6 +311,17 @@ void share_contenders(const Design& design, const Standing& chosen, const Model&
     }
 }
 
+/// Weighs a contender against what the cause answers it, if that is better than the chosen model;
+/// returns this answer, against the chosen model.
+std::optional<Contender> replied(const Searching& search, const Standing& chosen, FoldColumns& rows,
+                                 const std::string& cause, Contender& contender) {
+    if (contender.model.members.empty() || probability_against(contender) >= rules::sure) return {};
+    Standing standing(rows, reply_to(search, chosen.model, contender.model, cause));
+    if (!(standing.weight > chosen.weight)) return {};
+    contender = against(rows, standing, std::move(contender.model));
+    return against(rows, chosen, std::move(standing.model));
+}
+
 /// Finds the contender of each member that is a cause; parts of one cause have one. If one may
 /// replace the chosen model, returns what it becomes, and there are no contenders.
 std::optional<Successor> challenge_each(const Searching& search, const Standing& chosen,
@@ -348,11 +337,18 @@ std::optional<Successor> challenge_each(const Searching& search, const Standing&
             continue;
         }
         contenders[k] = contender_of(search, chosen, rows, cause);
-        if (may_replace)
-            if (auto next = successor(search, chosen, rows, contenders[k])) return next;
+        if (may_replace && contenders[k].ahead >= better) {
+            Contender best = contenders[k];
+            if (auto reply = replied(search, chosen, rows, cause, best)) best = std::move(*reply);
+            if (auto next = successor(search, chosen, rows, best)) return next;
+        }
         contenders[k] = or_spoiled(search, chosen, rows, std::move(contenders[k]));
     }
     share_contenders(search.design, chosen, result.model, contenders);
+    for (std::size_t k = 0; k < contenders.size() && !search.setting.stopped(); ++k)
+        if (const std::string cause = cause_of_member(search.design, result.model, k);
+            !cause.empty())
+            replied(search, chosen, rows, cause, contenders[k]);
     result.contenders = std::move(contenders);
     return std::nullopt;
 }
@@ -380,14 +376,6 @@ Challenged challenged(FoldColumns& rows, const SearchSetting& setting, Model mod
     // A search that is ended leaves half a contender.
     if (setting.stopped()) return unchallenged(std::move(result.model));
     return result;
-}
-
-std::vector<std::size_t> in_place_of(Design& design, const Model& chosen, const Model& contender,
-                                     const Eigen::VectorXd& part) {
-    std::vector<std::size_t> groups;
-    for (const auto& [does, group] : others_in(design, chosen, contender, part))
-        if (does > least_overlap) groups.push_back(group);
-    return groups;
 }
 
 }  // namespace trunnion::diagnosis

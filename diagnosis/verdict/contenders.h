@@ -42,9 +42,4 @@ Challenged unchallenged(Model model);
 /// left-out readings, becomes the model.
 Challenged challenged(FoldColumns& rows, const SearchSetting& setting, Model model);
 
-/// Causes that the contender has and the chosen model has not, and that do in it what `part` (a
-/// contribution to the whitened readings) does; the largest first.
-std::vector<std::size_t> in_place_of(Design& design, const Model& chosen, const Model& contender,
-                                     const Eigen::VectorXd& part);
-
 }  // namespace trunnion::diagnosis
