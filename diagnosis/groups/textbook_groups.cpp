@@ -102,7 +102,9 @@ std::vector<Takes> each_alone(const effects::Effect& effect) {
 
 std::vector<std::function<bool(const effects::EffectParameter&)>> simpler_forms(
     const effects::Effect& effect) {
-    if (has_own_gains(effect)) return each_alone(effect);
+    // The offsets of a stylus are set one by one, so that one of them may be wrong alone.
+    if (has_own_gains(effect) || effect.kind == effects::EffectKind::probe_runout)
+        return each_alone(effect);
     std::vector<Takes> forms;
     std::set<std::string> vectors;
     for (const effects::EffectParameter& p : effect.parameters) {
