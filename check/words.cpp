@@ -151,6 +151,7 @@ std::optional<ConstantWords> constant_words(const interpreter::ParsedProgram& pr
         word.vacant = !value;
         word.decimal_point = item.decimal_point;
         word.column = item.column;
+        word.computed = item.a.count != 0;
     }
     return out;
 }

@@ -169,6 +169,13 @@ void add_frames(std::vector<Choice>& out) {
                        [frame](Setup& s) { s.tcp_frame = frame; }});
 }
 
+void add_roundings(std::vector<Choice>& out) {
+    for (const controller::VariableRoundingName& row : controller::variable_roundings)
+        out.push_back({"variable_rounding", row.name, row.what,
+                       [&row](const Setup& s) { return s.variable_rounding == row.rounding; },
+                       [&row](Setup& s) { s.variable_rounding = row.rounding; }, true});
+}
+
 void add_switches(std::vector<Choice>& out) {
     for (const Switch& row : switches)
         for (const bool on : {false, true})
@@ -248,6 +255,7 @@ std::vector<Choice> whole_table() {
     std::vector<Choice> out;
     add_frames(out);
     add_switches(out);
+    add_roundings(out);
     for (const Bit& bit : bits)
         for (const bool on : {false, true}) out.push_back(bit_choice(bit, on));
     add_values(out);

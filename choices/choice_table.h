@@ -17,6 +17,7 @@ struct Choice {
     std::function<bool(const setup::Setup&)> holds;  ///< true when the setup's control already has
                                                      ///< the value
     std::function<void(setup::Setup&)> take;
+    bool rounds = false;  ///< positions, so that it may look like the printing of a log
 
     std::string name() const { return key + '=' + value; }
 };

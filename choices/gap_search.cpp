@@ -9,6 +9,7 @@
 #include "choices/folds.h"
 #include "choices/joint_stores.h"
 #include "choices/passed_stop.h"
+#include "choices/row_fit.h"
 
 namespace trunnion::choices {
 
@@ -121,6 +122,7 @@ class Searcher {
             }
             ComparedRun run = comparer_.compared(std::move(path));
             if (run.loss >= found_.run.loss) continue;
+            if (choice.rounds && is_rounding(comparer_.log(), found_.run, run.losses)) continue;
             std::vector<double> left_out =
                 decided_elsewhere(found_.run.losses, run.losses, blocks_);
             add({choice.name(),

@@ -131,11 +131,16 @@ double row_limit_of(const LogOfProgram& log, const ComparedRun& base, const Comp
 }
 
 bool is_rounding(const LogView& view, const ComparedRun& run) {
+    return is_rounding(view, run, std::vector<double>(view.rows.size(), -1.0));
+}
+
+bool is_rounding(const LogView& view, const ComparedRun& run, const std::vector<double>& other) {
     if (view.rounding <= 0.0) return false;
     return std::all_of(run.pairs.begin(), run.pairs.end(), [&](const Pair& pair) {
-        return std::all_of(view.axes.begin(), view.axes.end(), [&](Axis axis) {
-            return std::abs(pair.apart[axis]) <= view.rounding + of_chord;
-        });
+        return other[pair.row] >= run.losses[pair.row] ||
+               std::all_of(view.axes.begin(), view.axes.end(), [&](Axis axis) {
+                   return std::abs(pair.apart[axis]) <= view.rounding + of_chord;
+               });
     });
 }
 

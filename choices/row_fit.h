@@ -43,6 +43,9 @@ double row_limit_of(const LogOfProgram& log, const ComparedRun& base, const Comp
 /// No axis of a row is farther than half the printed increment, and the log has no other noise:
 /// printing alone may do that, alike in all rows at rest.
 bool is_rounding(const LogView& view, const ComparedRun& run);
+/// The same of the rows that fit better with other losses: these show nothing that printing may not
+/// have done.
+bool is_rounding(const LogView& view, const ComparedRun& run, const std::vector<double>& other);
 
 /// "its lengths are inches", "X and Y are exchanged": another meaning of the columns under which
 /// the log agrees; empty: none. `loss`: with the meaning that was read.

@@ -9,6 +9,7 @@
 #include "controller/builder_profile.h"
 #include "controller/clamp.h"
 #include "controller/hurco_choices.h"
+#include "controller/variable_rounding.h"
 #include "geometry/axes.h"
 #include "interpreter/dialect.h"
 #include "positioning/tcp_frame.h"
@@ -38,6 +39,7 @@ struct ControlConfig {
     bool g89_feeds_to_initial = true;
     /// G53 under G91: moves by its words as if G53 were not there. False: the block does not move.
     bool g53_under_g91_moves = false;
+    VariableRounding variable_rounding = VariableRounding::none;
     std::vector<bool> skip_switches = std::vector<bool>(10, false);
     bool threading = false;  ///< option G33
     BuilderProfile builder;

@@ -40,6 +40,9 @@ struct Modal {
     WordUnits units;
     /// The largest value of each address, with and without decimal point.
     std::array<double, 26> largest{}, largest_bare{};
+    /// Least input increments in a unit of each address, to which the values of variables are
+    /// rounded; 0: they keep all digits.
+    std::array<double, 26> steps_per_unit{};
     motion::BlockMarks block;
     SpindleState spindle;
     NumbersInForce number;
@@ -64,7 +67,7 @@ struct Modal {
     void feed_changed();
 
   private:
-    void set_largest_words();
+    void set_limits_of_words();
 };
 
 }  // namespace trunnion::controller

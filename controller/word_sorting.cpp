@@ -84,11 +84,18 @@ void add_m(SortedWords& w, const interpreter::WordValue& word) {
     w.m[w.m_count++] = static_cast<int>(word.value + 0.5);
 }
 
+/// The control may round the value of a variable to the least input increment of the address;
+/// digits of the program stay as they are.
+double value_in(const Modal& modal, const interpreter::WordValue& word) {
+    const double steps = modal.steps_per_unit[static_cast<std::size_t>(word.letter - 'A')];
+    return word.computed && steps > 0.0 ? std::round(word.value * steps) / steps : word.value;
+}
+
 void add_letter(SortedWords& w, const Modal& modal, const interpreter::WordValue& word) {
     const std::uint32_t bit = SortedWords::bit(word.letter);
     if (word.letter == 'Z' && (w.present & bit) && modal.settings.is_hurco()) {
         if (w.more_depth_count == w.more_depths.size()) raise_alarm(9, word.column);
-        w.more_depths[w.more_depth_count++] = word.value;
+        w.more_depths[w.more_depth_count++] = value_in(modal, word);
         return;
     }
     if ((w.present & bit) && modal.settings.duplicates_alarm) raise_alarm(5074, word.column);
@@ -96,7 +103,7 @@ void add_letter(SortedWords& w, const Modal& modal, const interpreter::WordValue
     const double largest = word.decimal_point ? modal.largest[i] : modal.largest_bare[i];
     if (std::abs(word.value) > largest) raise_alarm(3, word.column);
     w.present |= bit;
-    w.value[i] = word.value;
+    w.value[i] = value_in(modal, word);
     w.column[i] = word.column;
     w.bare = word.decimal_point ? w.bare & ~bit : w.bare | bit;
 }

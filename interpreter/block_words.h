@@ -16,6 +16,7 @@ struct WordValue {
                                 ///< count as true
     bool vacant = false;        ///< `X#1` with #1 vacant: the control ignores the word
     std::uint16_t column = 0;   ///< of the letter, from 1
+    bool computed = false;      ///< `X#1`, `X[..]`: of a variable or an expression
 };
 
 /// The words of one block in written order, without N, O, macro statements and comments. A comma

@@ -67,6 +67,7 @@ inline bool read_plain_block(const char*& p, const char* end, const SpecialCodes
             word.decimal_point = number.point;
             word.vacant = false;
             word.column = column;
+            word.computed = false;
             continue;
         }
         if (is_line_end(c)) {

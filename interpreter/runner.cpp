@@ -212,6 +212,7 @@ bool Interpreter::State::give_out(const Block& block, const Code& code) {
         word.decimal_point = item->decimal_point;
         word.vacant = is_vacant(v);
         word.column = item->column;
+        word.computed = item->a.count != 0;
         if (first_special == words.count && (word.letter == '<' || special.has(word.letter, v)))
             first_special = i;
     }

@@ -11,6 +11,7 @@
 #include "controller/builder_profile.h"
 #include "controller/clamp.h"
 #include "controller/hurco_choices.h"
+#include "controller/variable_rounding.h"
 #include "geometry/axes.h"
 #include "geometry/pose.h"
 #include "interpreter/dialect.h"
@@ -160,6 +161,8 @@ struct Setup {
     bool work_offset_is_group_12 = false;       ///< #4012 reads G54-G59, #4014 G66 G67
     bool g89_feeds_to_initial = true;           ///< G89 under G98 feeds out all the way
     bool g53_under_g91_moves = false;           ///< G53 under G91 moves by its words
+    /// [control] variable_rounding: of a variable in a position word
+    controller::VariableRounding variable_rounding = controller::VariableRounding::none;
     std::vector<controller::ClampCode> clamps;  ///< [control.clamps]
     std::vector<int> block_skip;                ///< [control] block_skip: active switches 1-9
     bool optional_stop = false;                 ///< [control] optional_stop: M01 stops

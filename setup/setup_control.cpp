@@ -239,6 +239,12 @@ interpreter::Dialect read_dialect(const TomlFile& file, const TomlValue& control
     file.fail(*generation, "generation is \"16i\", \"30i\" or \"0i-F\"");
 }
 
+controller::VariableRounding read_variable_rounding(const TomlFile& file, const TomlValue& value) {
+    for (const controller::VariableRoundingName& row : controller::variable_roundings)
+        if (file.text(value) == row.name) return row.rounding;
+    file.fail(value, "variable_rounding is \"none\", \"IS-A\", \"IS-B\" or \"IS-C\"");
+}
+
 void read_backup(const TomlFile& file, const TomlValue& value, const BackupReader& backup,
                  offsets::Stores& stores) {
     if (!backup) file.fail(value, "backups are not read here");
@@ -256,6 +262,8 @@ void read_control(const TomlFile& file, const TomlValue& control, const BackupRe
     read_switch(file, control, "work_offset_is_group_12", setup.work_offset_is_group_12);
     read_switch(file, control, "g89_feeds_to_initial", setup.g89_feeds_to_initial);
     read_switch(file, control, "g53_under_g91_moves", setup.g53_under_g91_moves);
+    if (const TomlValue* rounding = control.find("variable_rounding"))
+        setup.variable_rounding = read_variable_rounding(file, *rounding);
     read_switch(file, control, "optional_stop", setup.optional_stop);
     read_switch(file, control, "threading", setup.threading);
     if (const TomlValue* table = control.find("builder"))

@@ -257,6 +257,13 @@ std::string generation_text(interpreter::ControlGeneration generation) {
                                                                     : "";
 }
 
+std::string rounding_text(controller::VariableRounding rounding) {
+    for (const controller::VariableRoundingName& row : controller::variable_roundings)
+        if (row.rounding == rounding && rounding != controller::VariableRounding::none)
+            return std::string("variable_rounding = \"") + row.name + "\"\n";
+    return "";
+}
+
 std::string control_text(const Setup& setup) {
     std::string out =
         std::string("\n[control]\ndialect = ") +
@@ -266,6 +273,7 @@ std::string control_text(const Setup& setup) {
     if (setup.work_offset_is_group_12) out += "work_offset_is_group_12 = true\n";
     if (!setup.g89_feeds_to_initial) out += "g89_feeds_to_initial = false\n";
     if (setup.g53_under_g91_moves) out += "g53_under_g91_moves = true\n";
+    out += rounding_text(setup.variable_rounding);
     if (setup.optional_stop) out += "optional_stop = true\n";
     if (setup.threading) out += "threading = true\n";
     if (!setup.block_skip.empty()) {

@@ -123,6 +123,53 @@ TEST_CASE("G53 under G91 moves where the setup says so, and the setup is written
     CHECK(run_text(setup_with(""), program).variables.at(100) == 5.0);
 }
 
+TEST_CASE("a variable in a position word is rounded where the setup says so, digits are not") {
+    struct Case {
+        const char* name;
+        double mm, inch, deg;  ///< increments; 0: none
+    };
+    for (const Case& c : {Case{"none", 0.0, 0.0, 0.0}, {"IS-A", 0.01, 0.001, 0.01},
+                          {"IS-B", 0.001, 0.0001, 0.001}, {"IS-C", 1e-4, 1e-5, 1e-4}}) {
+        INFO(c.name);
+        const auto to = [](double value, double step) {
+            return step > 0.0 ? step * std::round(value / step) : value;
+        };
+        std::vector<std::string> notes;
+        const setup::Setup first =
+            setup_with("variable_rounding = \"" + std::string(c.name) + "\"\n");
+        const setup::Setup again = setup::parse_setup(setup::format_setup(first), "t.toml", notes);
+        const auto v = run_text(again,
+                                "G21G90#1=200./7.\nG0X#1Y-#1Z[#1]C#1\n#101=#5021\n#102=#5022\n"
+                                "#103=#5023\n#104=#5025\nX12.34567\n#105=#5021\n"
+                                "G91X[1./3.]\nX[1./3.]\n#106=#5021\nG90G20X[2./7.]C[50./7.]\n"
+                                "#107=#5021\n#108=#5025\nM30\n")
+                           .variables;
+        CHECK(v.at(101) == Approx(to(200.0 / 7, c.mm)).margin(1e-9));
+        CHECK(v.at(102) == Approx(-to(200.0 / 7, c.mm)).margin(1e-9));
+        CHECK(v.at(103) == Approx(to(200.0 / 7, c.mm)).margin(1e-9));
+        CHECK(v.at(104) == Approx(to(200.0 / 7, c.deg)).margin(1e-9));
+        CHECK(v.at(105) == Approx(12.34567).margin(1e-9));
+        CHECK(v.at(106) == Approx(12.34567 + 2.0 * to(1.0 / 3, c.mm)).margin(1e-9));
+        CHECK(v.at(107) == Approx(to(2.0 / 7, c.inch)).margin(1e-9));
+        CHECK(v.at(108) == Approx(to(50.0 / 7, c.deg)).margin(1e-9));
+    }
+    CHECK_THROWS_AS(setup_with("variable_rounding = \"IS-D\"\n"), InputError);
+    CHECK_THROWS_AS(setup_with("variable_rounding = true\n"), InputError);
+}
+
+TEST_CASE("centres, radii and depths are rounded; values of a call, feed and numbers are not") {
+    const std::string program =
+        "G21G90G17X0Y0Z10.\n#1=10./3.\nG2X[2.*#1]Y0I#1J0F100.\n#101=#5021\n"
+        "G83Z-#1R#1Q#1\n#102=#5023\nG80\nF#1\n#103=#4109\nG65P1A#1X#1\nM30\n"
+        "O1\n#104=#1\n#105=#24\nM99\n";
+    const auto v =
+        run_text(setup_with("variable_rounding = \"IS-A\"\n[control.parameters]\n3410 = 0.0001\n"),
+                 program)
+            .variables;
+    CHECK(v.at(101) == Approx(6.67).margin(1e-9));
+    CHECK(v.at(103) == Approx(10.0 / 3).margin(1e-9));
+}
+
 TEST_CASE("axis words beside a builder's G code are its own, unless the block has a motion code") {
     const setup::Setup setup = setup_with("builder = { g_codes = [313] }\n");
     const auto x_after = [&](const std::string& block) {
