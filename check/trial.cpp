@@ -158,9 +158,9 @@ class SequentialRun {
             skips = skips || (item.letter == 'G' && (code == 310 || code == 370));
             ends = ends || (item.letter == 'M' && (code == 300 || code == 20));
             if (item.letter == 'G' && code == 670) continue;  // the language's own
-            words.words[words.count++] = {*value, item.letter, item.decimal_point,
-                                          interpreter::is_vacant(*value), item.column,
-                                          item.a.count != 0};
+            words.words[words.count++] = {
+                *value,      item.letter,      item.decimal_point, interpreter::is_vacant(*value),
+                item.column, item.a.count != 0};
         }
         leaves = leaves || from_file;
         if (all_known && leaves) refuse_call(words);

@@ -55,11 +55,11 @@ struct ControlSettings {
     bool g53_under_g91_moves = false;        ///< own option, see ControlConfig
     /// Own option, see ControlConfig.
     VariableRounding variable_rounding = VariableRounding::none;
-    std::uint16_t rollover = 0;              ///< 1008#0 ROA by axis letter bit
-    std::uint16_t rollover_signed = 0;       ///< 1008#1 RAB: such an axis turns by the word's sign
-    double least_surface_rpm = 0.0;          ///< 3771: minimum speed under G96
-    double most_rpm = 99999.0;               ///< 3772; absent or 0: five digits (assumed)
-    int surface_axis_number = 1;             ///< 3770: radius axis of G96 without P; 0 or absent: 1
+    std::uint16_t rollover = 0;         ///< 1008#0 ROA by axis letter bit
+    std::uint16_t rollover_signed = 0;  ///< 1008#1 RAB: such an axis turns by the word's sign
+    double least_surface_rpm = 0.0;     ///< 3771: minimum speed under G96
+    double most_rpm = 99999.0;          ///< 3772; absent or 0: five digits (assumed)
+    int surface_axis_number = 1;        ///< 3770: radius axis of G96 without P; 0 or absent: 1
     ToolMeasuring measuring;
     std::array<double, axis_count> overrun{};      ///< 5440, mm and deg: G60
     std::array<double, axis_count> corner_jump{};  ///< 1783, mm/min and deg/min; 0: 400 (assumed)

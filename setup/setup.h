@@ -156,11 +156,11 @@ struct Setup {
     std::vector<EffectSetting> effects;  ///< including the keys backlash and pretravel
     interpreter::Dialect dialect;
     positioning::TcpFrame tcp_frame =
-        positioning::TcpFrame::start;           ///< [control] tcp_frame = "start" or "rotary_zero"
-    bool work_positions_with_length = true;     ///< #5041.. and #5061.. include the tool length
-    bool work_offset_is_group_12 = false;       ///< #4012 reads G54-G59, #4014 G66 G67
-    bool g89_feeds_to_initial = true;           ///< G89 under G98 feeds out all the way
-    bool g53_under_g91_moves = false;           ///< G53 under G91 moves by its words
+        positioning::TcpFrame::start;        ///< [control] tcp_frame = "start" or "rotary_zero"
+    bool work_positions_with_length = true;  ///< #5041.. and #5061.. include the tool length
+    bool work_offset_is_group_12 = false;    ///< #4012 reads G54-G59, #4014 G66 G67
+    bool g89_feeds_to_initial = true;        ///< G89 under G98 feeds out all the way
+    bool g53_under_g91_moves = false;        ///< G53 under G91 moves by its words
     /// [control] variable_rounding: of a variable in a position word
     controller::VariableRounding variable_rounding = controller::VariableRounding::none;
     std::vector<controller::ClampCode> clamps;  ///< [control.clamps]

@@ -37,7 +37,8 @@ records::PositionLog macro_log(double increment, double up = 0.0, int rests = 0)
         for (int k = 0; k < rests; ++k) log.add(block, at);
     };
     for (int k = 1; k <= 12; ++k)
-        stop(50, {rounded(10.0 * k / 3, increment), rounded(20 - 10.0 * k / 7, increment), 10 + up});
+        stop(50,
+             {rounded(10.0 * k / 3, increment), rounded(20 - 10.0 * k / 7, increment), 10 + up});
     stop(80, {3.00049, 1.00051, 10 + up});
     log.to(90, {3.00049, 1.00051, 30 + up}, 2.0);
     return log.log;

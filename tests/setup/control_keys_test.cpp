@@ -128,8 +128,10 @@ TEST_CASE("a variable in a position word is rounded where the setup says so, dig
         const char* name;
         double mm, inch, deg;  ///< increments; 0: none
     };
-    for (const Case& c : {Case{"none", 0.0, 0.0, 0.0}, {"IS-A", 0.01, 0.001, 0.01},
-                          {"IS-B", 0.001, 0.0001, 0.001}, {"IS-C", 1e-4, 1e-5, 1e-4}}) {
+    for (const Case& c : {Case{"none", 0.0, 0.0, 0.0},
+                          {"IS-A", 0.01, 0.001, 0.01},
+                          {"IS-B", 0.001, 0.0001, 0.001},
+                          {"IS-C", 1e-4, 1e-5, 1e-4}}) {
         INFO(c.name);
         const auto to = [](double value, double step) {
             return step > 0.0 ? step * std::round(value / step) : value;
