@@ -64,20 +64,20 @@ std::string name_of(const choices::ControlGap& gap) {
 TEST_CASE("a control that rounds variables to 0.01 or 0.001 mm is named") {
     for (const auto& [increment, name] : {std::pair{0.01, "IS-A"}, {0.001, "IS-B"}}) {
         INFO(name);
-        const auto gap = gap_of(mill_of(), macro_log(increment), macro);
+        const auto gap = gap_of(mill_of(), macro_log(increment, 0.0, 20), macro);
         CHECK(gap.verdict == GapVerdict::explained);
         REQUIRE(name_of(gap) == std::string("variable_rounding=") + name);
         CHECK(gap.causes[0].probability > 0.7);
         CHECK(gap.causes[0].first.line == 5);
         CHECK(gap.after.shrink > 0.9);
         const auto written = log_bench::setup_of(setup::format_setup(gap.setup));
-        CHECK(gap_of(written, macro_log(increment), macro).verdict == GapVerdict::no_gap);
+        CHECK(gap_of(written, macro_log(increment, 0.0, 20), macro).verdict == GapVerdict::no_gap);
     }
 }
 
 TEST_CASE("a control that keeps all digits is no gap, and is named where the setup rounds") {
     CHECK(gap_of(mill_of(), macro_log(0.0), macro).verdict == GapVerdict::no_gap);
-    const auto gap = gap_of(rounding_mill("IS-B"), macro_log(0.0), macro);
+    const auto gap = gap_of(rounding_mill("IS-B"), macro_log(0.0, 0.0, 20), macro);
     CHECK(name_of(gap) == "variable_rounding=none");
     CHECK(gap.verdict == GapVerdict::explained);
     CHECK(name_of(gap_of(rounding_mill("IS-B"), macro_log(0.01), macro)) ==
@@ -97,7 +97,7 @@ TEST_CASE("a log that is printed to the increment does not show a rounding by th
 }
 
 TEST_CASE("a rounding that adds up under G91 shows beyond the digits of the log") {
-    std::string program = "N1 G21 G90 G17 G54\nN2 G0 X0. Y0. Z10.\nN3 G91 #1=1\n";
+    std::string program = "N1 G21 G90 G17 G54\nN2 G0 X0. Y0. Z10.\nN3 G91\n";
     SampledLog log({0, 0, 0});
     log.to(2, {0, 0, 10}, 2.0);
     for (int k = 1; k <= 40; ++k) {

@@ -141,7 +141,7 @@ TEST_CASE("a variable in a position word is rounded where the setup says so, dig
             setup_with("variable_rounding = \"" + std::string(c.name) + "\"\n");
         const setup::Setup again = setup::parse_setup(setup::format_setup(first), "t.toml", notes);
         const auto v = run_text(again,
-                                "G21G90#1=200./7.\nG0X#1Y-#1Z[#1]C#1\n#101=#5021\n#102=#5022\n"
+                                "G21G90\n#1=200./7.\nG0X#1Y-#1Z[#1]C#1\n#101=#5021\n#102=#5022\n"
                                 "#103=#5023\n#104=#5025\nX12.34567\n#105=#5021\n"
                                 "G91X[1./3.]\nX[1./3.]\n#106=#5021\nG90G20X[2./7.]C[50./7.]\n"
                                 "#107=#5021\n#108=#5025\nM30\n")
@@ -165,7 +165,7 @@ TEST_CASE("centres, radii and depths are rounded; values of a call, feed and num
         "G83Z-#1R#1Q#1\n#102=#5023\nG80\nF#1\n#103=#4109\nG65P1A#1X#1\nM30\n"
         "O1\n#104=#1\n#105=#24\nM99\n";
     const auto v =
-        run_text(setup_with("variable_rounding = \"IS-A\"\n[control.parameters]\n3410 = 0.0001\n"),
+        run_text(setup_with("variable_rounding = \"IS-A\"\n[control.parameters]\n3410 = 0.0\n"),
                  program)
             .variables;
     CHECK(v.at(101) == Approx(6.67).margin(1e-9));
