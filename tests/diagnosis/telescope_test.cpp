@@ -108,6 +108,33 @@ TEST_CASE("a telescope of unknown noise and no error has no gap", "[diagnosis]")
     CHECK(silent >= 3);
 }
 
+// Stars tell the line of sight, not the axis: what goes with the elevation may be the tube or the
+// air as well as the encoder.
+TEST_CASE("a line of sight that bends is a rival of the axis that carries it", "[diagnosis]") {
+    for (const bool of_axis : {false, true}) {
+        records::ReadingTable table = read_by(mount(), 80, 3);
+        for (records::Reading& row : table.rows) {
+            row.angular = true;
+            if (row.test != "A") continue;
+            const double a = row.commanded[Axis::A];
+            *row.value_mm += of_axis ? 2e-3 * std::cos(3.0 * a + 0.4)
+                                     : 3e-3 / std::tan(a) * 0.3 + 2e-3 * std::cos(a);
+        }
+        const diagnosis::Diagnosis d = diagnosis::diagnose(mount(), table);
+        INFO(of_axis << " " << said(d));
+        const auto at = std::find_if(d.causes.begin(), d.causes.end(),
+                                     [](const auto& c) { return c.effect == "A.positioning"; });
+        REQUIRE(at != d.causes.end());
+        const auto rival = [&](const char* name) {
+            return std::count(at->rivals.begin(), at->rivals.end(), name) > 0;
+        };
+        CHECK(rival("air.refraction") == !of_axis);
+        CHECK((at->probability <= 0.5) == !of_axis);
+        if (!of_axis) CHECK(rival("chain.flexure"));
+        CHECK((at->what.find("refraction") != std::string::npos) == !of_axis);
+    }
+}
+
 // A driver of time follows what is wrong at the ends of a run: the readings are set aside all the
 // same.
 TEST_CASE("the first and the last star of a run are wrong ones", "[diagnosis]") {
