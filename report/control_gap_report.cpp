@@ -107,7 +107,8 @@ std::string place_words(const choices::GapPlace& place) {
 }
 
 std::string number_words(const choices::FittedNumber& n) {
-    return fmt::format("{} from {} to {} {}", n.name, three_digits(n.from),
+    // Both with the same digits: "from 10.1 to 10.000000" would tell another change.
+    return fmt::format("{} from {} to {} {}", n.name, rounded(n.from, n.sigma).value,
                        with_sigma(n.to, n.sigma), n.unit);
 }
 

@@ -32,4 +32,17 @@ TEST_CASE("what no cause explains is not told as a cause", "[report]") {
                    !Catch::Contains("G54"));
 }
 
+TEST_CASE("the declared number of a store has the digits of the found one", "[report]") {
+    choices::FittedNumber number;
+    number.name = "G54.X";
+    number.unit = "mm";
+    number.from = 10.05;
+    number.to = 10.0;
+    number.sigma = 0.000033;
+    CHECK(report::number_words(number) == "G54.X from 10.050000 to 10.000000 ± 0.000033 mm");
+    number.from = 10.004;
+    number.sigma = 0.0012;
+    CHECK(report::number_words(number) == "G54.X from 10.0040 to 10.0000 ± 0.0012 mm");
+}
+
 }  // namespace trunnion
