@@ -3,54 +3,13 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <set>
 
-#include "base/random.h"
 #include "diagnosis/rules/rules.h"
-#include "diagnosis/search/model_weight.h"
-#include "diagnosis/verdict/order.h"
-#include "diagnosis/verdict/reply.h"
-#include "diagnosis/verdict/shares.h"
+#include "tests/support/made_columns.h"
 
 namespace trunnion {
+using namespace made_columns;
 namespace {
-
-constexpr int rows = 400, blocks = 80;
-
-Eigen::MatrixXd random_matrix(SeededNoise& random, Eigen::Index columns) {
-    Eigen::MatrixXd m(rows, columns);
-    for (Eigen::Index c = 0; c < columns; ++c)
-        for (Eigen::Index r = 0; r < rows; ++r) m(r, c) = random.normal();
-    return m;
-}
-
-const effects::Effect& straightness_of_Z() {
-    static const effects::Effect effect{
-        {"Z.straightness", effects::EffectKind::straightness, Axis::Z}, "", "", "", "", {}, {}};
-    return effect;
-}
-
-diagnosis::ColumnGroup group_of(diagnosis::Design& design, const std::string& name,
-                                diagnosis::GroupKind kind, const Eigen::MatrixXd& columns) {
-    diagnosis::ColumnGroup group;
-    group.kind = kind;
-    group.name = name;
-    group.log_prior = diagnosis::rules::effect_prior;
-    if (kind == diagnosis::GroupKind::textbook) group.effect = &straightness_of_Z();
-    group.table.motion = effects::EffectKind::straightness;
-    group.table.axis.axis = name[0] == 'Z' ? Axis::Z : Axis::X;
-    group.table.axis.name = name.substr(0, 1);
-    const Eigen::Index first = design.add_features(columns);
-    for (Eigen::Index k = 0; k < columns.cols(); ++k) group.features.push_back(first + k);
-    return group;
-}
-
-diagnosis::Folds folds_of_blocks() {
-    diagnosis::Folds folds;
-    for (int i = 0; i < rows; ++i) folds.group.push_back(i * blocks / rows);
-    for (int b = 0; b < blocks; ++b) folds.fold.push_back(b % diagnosis::Folds::count);
-    return folds;
-}
 
 /// The claims of a model whose members left-out readings support without doubt. `between`: they
 /// hold between their places, too.
@@ -98,79 +57,6 @@ TEST_CASE("a cause that works against the others is doubtful, however much evide
     const auto claims = claims_of({design, setting}, unrivalled(model));
     CHECK(claim_named(claims, "large").probability > 0.95);
     CHECK(claim_named(claims, "against").probability <= 0.4);
-}
-
-TEST_CASE("causes that cancel divide what they do together", "[diagnosis]") {
-    SeededNoise random(6);
-    const Eigen::MatrixXd base = random_matrix(random, 2);
-    const Eigen::MatrixXd line = base.col(0), place = base.col(0) + 0.1 * base.col(1);
-    const Eigen::VectorXd data =
-        10.0 * base.col(0) + 2.0 * base.col(1) + random_matrix(random, 1).col(0);
-    diagnosis::Design design(random_matrix(random, 2), data, rows);
-    for (const auto& [name, columns] : {std::pair("line", line), std::pair("place", place)})
-        design.add(group_of(design, name, diagnosis::GroupKind::textbook, columns));
-    const diagnosis::SearchSetting setting = diagnosis::search_setting(design, {0.0, 0.1});
-    const diagnosis::Model model =
-        diagnosis::tuned(design, setting, {{0, 1}, {{10.0, 20.0}, 1.0}, 0.0}, 3);
-    const diagnosis::Sizes sizes = diagnosis::sizes_of(design, model, 1.0, {false, false});
-    REQUIRE(sizes.along[0] < 0.0);  // what one does is taken back by the other
-    const std::vector<double> shares = diagnosis::shares_of(design, model, sizes);
-    CHECK(shares[0] + shares[1] == Approx(1.0).margin(0.02));
-    CHECK(shares[0] == Approx(0.5).margin(0.1));
-    // Each alone does nearly all of it, and neither is to be called none.
-    CHECK(shares[1] == Approx(0.5).margin(0.1));
-}
-
-TEST_CASE("a cause answers a contender with what that found besides", "[diagnosis]") {
-    SeededNoise random(8);
-    const Eigen::MatrixXd base = random_matrix(random, 3);
-    const Eigen::MatrixXd cause = base.col(0), twin = base.col(0) + 0.03 * base.col(1),
-                          other = base.col(2);
-    const Eigen::VectorXd data =
-        6.0 * cause.col(0) + 0.5 * other.col(0) + random_matrix(random, 1).col(0);
-    diagnosis::Design design(random_matrix(random, 2), data, rows);
-    for (const auto& [name, columns] :
-         {std::pair("cause", cause), std::pair("twin", twin), std::pair("besides", other)})
-        design.add(group_of(design, name, diagnosis::GroupKind::textbook, columns));
-    const diagnosis::SearchSetting setting = diagnosis::search_setting(design, {0.0, 0.1});
-    const auto model_of = [&](std::vector<std::size_t> members, std::vector<double> sizes) {
-        return diagnosis::tuned(design, setting, {std::move(members), {std::move(sizes), 1.0}, 0.0},
-                                3);
-    };
-    const diagnosis::Model chosen = model_of({0}, {6.0}), contender = model_of({1, 2}, {6.0, 0.5});
-    REQUIRE(diagnosis::weight_of(design, contender) > diagnosis::weight_of(design, chosen));
-    const diagnosis::Model reply =
-        diagnosis::reply_to({design, setting}, chosen, contender, "cause");
-    CHECK(diagnosis::weight_of(design, reply) > diagnosis::weight_of(design, contender));
-    CHECK(std::set<std::size_t>(reply.members.begin(), reply.members.end()) ==
-          std::set<std::size_t>{0, 2});
-}
-
-TEST_CASE("most of the gap stands first, although its name is open", "[diagnosis]") {
-    SeededNoise random(9);
-    const Eigen::MatrixXd columns = random_matrix(random, 2);
-    diagnosis::Design design(random_matrix(random, 2), columns.col(0), rows);
-    for (const auto& [name, k] : {std::pair("large", 0), std::pair("Zsmall", 1)})
-        design.add(group_of(design, name, diagnosis::GroupKind::textbook, columns.col(k)));
-    const diagnosis::Model model{{0, 1}, {{1.0, 1.0}, 1.0}, 0.0};
-    const auto first_of = [&](double share, const std::vector<std::string>& rivals) {
-        diagnosis::Claim large, small;
-        large.name = "large";
-        large.share = share;
-        large.probability = 0.3;
-        large.rivals = rivals;
-        small.position = 1;
-        small.name = "Zsmall";
-        small.share = 0.04;
-        small.probability = 0.97;
-        std::vector<diagnosis::Claim> claims{small, large};
-        diagnosis::put_in_order(design, model, claims);
-        return claims.front().name;
-    };
-    CHECK(first_of(0.8, {"twin"}) == "large");
-    CHECK(first_of(0.4, {"twin"}) == "Zsmall");    // not most of it
-    CHECK(first_of(0.8, {}) == "Zsmall");          // rather none than another name
-    CHECK(first_of(0.8, {"Zsmall"}) == "Zsmall");  // its rival is claimed
 }
 
 TEST_CASE("a sure cause stays sure beside one that may be none", "[diagnosis]") {
