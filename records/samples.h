@@ -1,4 +1,5 @@
-// Axis samples of the rows of a table: sides, velocities and distances by the rules of the format.
+// Axis samples of the rows of a table: sides, velocities and distances by the rules of the
+// format (samples.cpp, walk.cpp).
 #pragma once
 
 #include <optional>

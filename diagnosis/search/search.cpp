@@ -228,7 +228,8 @@ Model empty_model(Design& design, const SearchSetting& setting) {
 namespace {
 
 /// True where the fit gives a parameter a size that it cannot have: no control rounds its positions
-/// by 500 times the increment, whatever this explains, and no table rises under its weight. `mean`: of the members' coefficients.
+/// by 500 times the increment, and no table rises under its weight, whatever this explains. `mean`:
+/// of the members' coefficients.
 bool is_impossible(const Design& design, const Model& model, const Eigen::VectorXd& mean) {
     constexpr double beyond = 0.2;  // of the range or the usual size: noise may lead out of it
     Eigen::Index at = 0;

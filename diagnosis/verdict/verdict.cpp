@@ -238,11 +238,10 @@ double part_of(const Judgement& j, double unknowns) {
 /// A gap where what is left of neighbours is alike: noise is then at most what they do not share.
 void see_neighbours(const Prepared& p, const std::vector<bool>& used,
                     const Eigen::VectorXd& remainder, double unknowns, Judgement& j) {
-    constexpr double least = 4.0;  // deviations (assumed)
     const auto rows = static_cast<Eigen::Index>(used.size());
     const NeighbourNoise near =
         noise_of_neighbours(p.replay, used, remainder.head(rows), Eigen::VectorXd::Ones(rows));
-    if (near.alike < least || near.variance >= j.floor) return;
+    if (near.alike < rules::alike || near.variance >= j.floor) return;
     j.gap = j.alike_near = true;
     j.floor = near.variance;
     j.part = part_of(j, unknowns);
