@@ -240,7 +240,8 @@ TEST_CASE("a rapid without interpolation is compared with its corner") {
         "[machine]\nname = \"m\"\nchain = \"w b X Y Z t\"\n[control]\ndialect = \"hurco\"\n");
     const choices::ControlPath path = [&] {
         interpreter::ProgramsInMemory none;
-        return path_of(there, log_bench::program_of("N10 G0 X50. Y-30. Z7.\nN20 M30\n"), none, {});
+        return choices::path_of(there, log_bench::program_of("N10 G0 X50. Y-30. Z7.\nN20 M30\n"),
+                                none, {});
     }();
     // All axes at the same speed: Z arrives first, then Y, then X.
     for (const Vector3& corner : {Vector3(7, -7, 7), Vector3(30, -30, 7), Vector3(50, -30, 7)}) {
