@@ -130,7 +130,8 @@ TEST_CASE("a ripple that the places do not resolve is what a table gives at thes
         const auto claims = claims_of({design, setting}, unrivalled(model), between);
         const diagnosis::Claim& claim = claim_named(claims, "Z.positioning");
         INFO(between << ' ' << claim.probability);
-        CHECK((claim.probability < 0.1) == between);
+        // Between its places the table may be a slow wave of the same values: as likely as not.
+        CHECK((claim.probability == Approx(0.5).margin(0.01)) == between);
         CHECK((claim.probability > 0.9) == !between);
         CHECK(claim.rivals == std::vector<std::string>{"Z.cyclic"});
     }
