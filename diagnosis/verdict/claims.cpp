@@ -18,6 +18,11 @@
 #include "estimation/distributions.h"
 
 namespace trunnion::diagnosis {
+
+effects::EffectKind motion_of(const ColumnGroup& group) {
+    return group.effect ? group.effect->kind : group.table.motion;
+}
+
 namespace {
 
 constexpr double doubtful = 0.4;  ///< probability at most of causes that cancel each other
@@ -47,10 +52,6 @@ double temper(const Sizes& sizes, std::size_t k, const HeldOutEvidence& heldout)
         expected += heldout.variance * own[b];
     }
     return 1.0 / std::max(1.0, expected > 0.0 ? square / expected : 1.0);
-}
-
-effects::EffectKind motion_of(const ColumnGroup& group) {
-    return group.effect ? group.effect->kind : group.table.motion;
 }
 
 /// A jump of the machine stands against a move of an artefact and against a drift, which are
