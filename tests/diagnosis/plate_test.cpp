@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
+#include <string>
 
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/groups/candidate_groups.h"
@@ -14,13 +15,14 @@
 namespace trunnion {
 namespace {
 
-setup::Setup bench() {
+setup::Setup bench(const std::string& noise_um = "1.5") {
     std::vector<std::string> notes;
     return setup::parse_setup(
         "[machine]\nname = \"m\"\nchain = \"w b X Y Z t\"\n"
         "[[artefact]]\nname = \"R1\"\nkind = \"target\"\ntool_mm = [0, 0, -150]\n"
         "[[instrument]]\nname = \"CMM\"\nframe = \"W\"\nfree = [\"pose\"]\n"
-        "[model]\nmodelled = []\nnoise_um = { point = 1.5 }\n",
+        "[model]\nmodelled = []\nnoise_um = { point = " +
+            noise_um + " }\n",
         "s.toml", notes);
 }
 
@@ -210,13 +212,7 @@ TEST_CASE("a spoiled coordinate is set aside where nobody states the noise", "[d
 // nothing repeats.
 TEST_CASE("readings that are alike at near places are a gap, and what is stated is told",
           "[diagnosis]") {
-    std::vector<std::string> notes;
-    const setup::Setup setup = setup::parse_setup(
-        "[machine]\nname = \"m\"\nchain = \"w b X Y Z t\"\n"
-        "[[artefact]]\nname = \"R1\"\nkind = \"target\"\ntool_mm = [0, 0, -150]\n"
-        "[[instrument]]\nname = \"CMM\"\nframe = \"W\"\nfree = [\"pose\"]\n"
-        "[model]\nmodelled = []\nnoise_um = { point = 3 }\n",
-        "s.toml", notes);
+    const setup::Setup setup = bench("3");
     for (const bool formed : {true, false}) {
         std::mt19937_64 engine(7);
         std::uniform_real_distribution<double> at(0.0, 600.0);

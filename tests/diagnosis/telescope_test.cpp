@@ -14,15 +14,14 @@
 namespace trunnion {
 namespace {
 
-setup::Setup mount(const std::string& errors = "") {
+setup::Setup mount(const std::string& errors = "", const std::string& tool_mm = "[0, 0, 0]") {
     std::vector<std::string> notes;
     return setup::parse_setup(
         "[machine]\nname = \"mount\"\nchain = \"w b C A t\"\n"
         "[machine.axis.C]\ndirection = [0, 0, -1]\npoint_mm = [0, 0, 0]\n"
         "[machine.axis.A]\ndirection = [1, 0, 0]\npoint_mm = [0, 0, 0]\n"
-        "[[artefact]]\nname = \"Star\"\nkind = \"target\"\ntool_mm = [0, 0, 0]\n"
-        "[model]\nmodelled = []\n" +
-            errors,
+        "[[artefact]]\nname = \"Star\"\nkind = \"target\"\ntool_mm = " +
+            tool_mm + "\n[model]\nmodelled = []\n" + errors,
         "s.toml", notes);
 }
 
@@ -133,6 +132,21 @@ TEST_CASE("a line of sight that bends is a rival of the axis that carries it", "
         if (!of_axis) CHECK(rival("chain.flexure"));
         CHECK((at->what.find("refraction") != std::string::npos) == !of_axis);
     }
+}
+
+// A mirror on an arm, read by an autocollimator: no air bends what it shows.
+TEST_CASE("an arm that no star is seen by has no refraction", "[diagnosis]") {
+    const setup::Setup arm = mount("", "[0, 0, -100]");
+    records::ReadingTable table = read_by(arm, 80, 3);
+    for (records::Reading& row : table.rows) {
+        row.angular = true;
+        if (row.test == "A") *row.value_mm += 2e-3 * std::cos(row.commanded[Axis::A]);
+    }
+    const diagnosis::Diagnosis d = diagnosis::diagnose(arm, table);
+    INFO(said(d));
+    CHECK(d.verdict != diagnosis::Verdict::no_gap);
+    for (const diagnosis::Cause& cause : d.causes)
+        CHECK(std::count(cause.rivals.begin(), cause.rivals.end(), "air.refraction") == 0);
 }
 
 // A driver of time follows what is wrong at the ends of a run: the readings are set aside all the
