@@ -15,6 +15,11 @@ namespace {
 using offsets::ControlPosition;
 
 constexpr int most_chords = 512;
+/// A curve is 4 parts, halved up to 7 times to 512 chords, where it has a corner up to 16 times:
+/// corners of a way of 1 m are told to 0.004 mm along it.
+constexpr int parts_of_curve = 4, most_halved = 7, most_halved_at_corner = 16;
+constexpr double straight_half =
+    0.1;  ///< bend of a half beside a corner; of half an arc it is 0.25
 
 double distance(const ControlPosition& a, const ControlPosition& b) {
     double sum = 0.0;
@@ -41,6 +46,24 @@ double sag(const motion::AxisMove& m, int n) {
     return most;
 }
 
+/// A part of a move: from 0 at its start to 1 at its end.
+struct CurvePart {
+    double begin, end;
+};
+
+/// Distance of the chord of a part of a curve from it, at its quarters.
+double bend_of(const motion::AxisMove& m, const CurvePart& of) {
+    const ControlPosition from = place(m, of.begin), to = place(m, of.end);
+    double most = 0.0;
+    for (const double part : {0.25, 0.5, 0.75}) {
+        ControlPosition chord;
+        for (std::size_t i = 0; i < axis_count; ++i)
+            chord.value[i] = from.value[i] + part * (to.value[i] - from.value[i]);
+        most = std::max(most, distance(chord, place(m, of.begin + part * (of.end - of.begin))));
+    }
+    return most;
+}
+
 class PathSink : public motion::MotionSink {
   public:
     PathSink(ControlPath& path, const PathOptions& options, const std::string& main)
@@ -51,14 +74,36 @@ class PathSink : public motion::MotionSink {
         const std::uint32_t block = block_of(m);
         const int parts = parts_of(m);
         for (int k = 1; k <= parts; ++k)
-            path_.nodes.push_back({place(m, static_cast<double>(k) / parts), block, k == parts});
+            add(m, block, {(k - 1.0) / parts, static_cast<double>(k) / parts}, 0);
         return {};
     }
 
   private:
+    /// The end of the part, and the parts of it that its chord leaves: a curve with a corner (a
+    /// rapid without interpolation) is halved where the corner is, however fine the others are.
+    void add(const motion::AxisMove& m, std::uint32_t block, const CurvePart& part, int halved) {
+        if (m.curve != nullptr && !options_.ends_only && is_halved(m, part, halved)) {
+            const double middle = 0.5 * (part.begin + part.end);
+            add(m, block, {part.begin, middle}, halved + 1);
+            add(m, block, {middle, part.end}, halved + 1);
+            return;
+        }
+        path_.nodes.push_back({place(m, part.end), block, part.end == 1.0});
+    }
+
+    bool is_halved(const motion::AxisMove& m, const CurvePart& part, int halved) const {
+        if (halved >= most_halved_at_corner) return false;
+        const double all = bend_of(m, part);
+        if (all <= options_.chord_mm || halved < most_halved) return all > options_.chord_mm;
+        const double middle = 0.5 * (part.begin + part.end);
+        return std::min(bend_of(m, {part.begin, middle}), bend_of(m, {middle, part.end})) <
+               straight_half * all;
+    }
+
     int parts_of(const motion::AxisMove& m) const {
         if (options_.ends_only) return options_.arc_points && m.arc ? arc_parts : 1;
-        if (!m.arc && m.curve == nullptr) return 1;
+        if (m.curve != nullptr) return parts_of_curve;
+        if (!m.arc) return 1;
         int n = 4;
         while (n < most_chords && sag(m, n) > options_.chord_mm) n *= 2;
         return n;

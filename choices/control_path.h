@@ -39,7 +39,7 @@ constexpr int arc_parts = 4;  ///< parts of an arc with PathOptions::arc_points
 struct PathOptions {
     AxisPositions start;      ///< mm and rad
     double chord_mm = 1e-4;   ///< maximum distance of chords from curves (at most 512 chords a
-                              ///< move)
+                              ///< move, more at a corner)
     bool ends_only = false;   ///< one node a move
     bool arc_points = false;  ///< with ends_only: also three nodes along each arc
     bool moves_only = false;  ///< no nodes are kept: only the end of the run is asked

@@ -17,6 +17,17 @@ constexpr double alike = 1e-3;       ///< probability of a difference that is no
 constexpr double small_part = 0.03;  ///< of the squares: so little else is no other cause (assumed)
 constexpr double least_sine = 0.0523;  ///< of the elevation: 3 deg, below there is no cotangent
 
+/// True for a mount: nothing but rotary axes, and the targets, which stand for the line of sight,
+/// on the last of them.
+bool is_telescope(const setup::Setup& setup) {
+    constexpr double on_axis_mm = 1e-6;
+    if (!setup::is_arm(setup.machine.chain)) return false;
+    const Vector3 last_mm = setup.machine.chain.tool.back().point_mm;
+    return std::all_of(setup.artefacts.begin(), setup.artefacts.end(), [&](const auto& target) {
+        return target.tool_S_mm && (setup.target_S_mm(target) - last_mm).norm() <= on_axis_mm;
+    });
+}
+
 std::optional<std::size_t> droop_of(const Outcome& f) {
     for (std::size_t k = 0; k < f.design.groups().size(); ++k) {
         const ColumnGroup& group = f.design.group(k);
@@ -55,9 +66,8 @@ bool is_of_last_axis(const Prepared& p, const ColumnGroup& group) {
     for (const kinematics::AxisGeometry& axis : p.base.setup.machine.chain.tool)
         if (axis.rotary) last = axis.axis;
     if (!is_cause(group.kind) || group.is_change()) return false;
-    const EffectKind motion = group.effect ? group.effect->kind : group.table.motion;
     const std::optional<Axis> own = group.effect ? group.effect->axis : group.table.axis.axis;
-    return motion == EffectKind::positioning && own == last;
+    return motion_of(group) == EffectKind::positioning && own == last;
 }
 
 /// The columns of named causes beside one, and of bendings.
@@ -96,7 +106,9 @@ void add_rival(const std::string& name, Claim& claim) {
 
 void doubt_bent_sight(const Outcome& f, std::vector<Claim>& claims) {
     const std::optional<std::size_t> droop = droop_of(f);
-    if (!droop || claims.empty() || !records::only_angles(f.prepared.table)) return;
+    if (!droop || claims.empty() || !is_telescope(f.prepared.base.setup) ||
+        !records::only_angles(f.prepared.table))
+        return;
     const Eigen::MatrixXd bent = bendings(f, *droop);
     const Eigen::MatrixXd parts = contributions(f.design, f.model, fit_of(f.design, f.model));
     for (Claim& claim : claims) {

@@ -93,7 +93,7 @@ struct Diagnosis {
     bool angles = false;  ///< all readings are angles: what is named _um is µrad
     Verdict verdict = Verdict::no_gap;
     NoiseModel noise;
-    std::vector<AddedNoise> added;  ///< where the rows state too little of it
+    std::vector<AddedNoise> added;    ///< where the rows state too little of it
     std::optional<Finite> stated_um;  ///< what is stated, where `noise_um` is another noise
     Finite rms_um = 0.0, noise_um = 0.0, excess_um = 0.0, p_value = 1.0;
     bool only_scatter = false;  ///< the gap is nothing but repeats that differ more than is stated

@@ -95,6 +95,7 @@ class FreshTable {
             const records::Reading &a = table_.rows[visit.rows[k]],
                                    &b = table_.rows[visit.rows[k + 1]];
             records::Reading row = a;
+            row.among_all.reset();  // another motion
             row.time_s = now_s + (a.time_s + part * (b.time_s - a.time_s) - begun_s) / speed;
             row.feed_mm_min *= speed;
             for (const Axis axis : table_.axes)

@@ -38,7 +38,6 @@ constexpr const char* scatter_words =
 
 /// True where what is left of successive readings of one test is correlated, as noise is not.
 bool is_alike_in_time(const Outcome& f) {
-    constexpr double alike = 4.0;  // deviations (assumed): chance below 1e-4
     double product = 0.0, square = 0.0, pairs = 0.0;
     std::map<std::string, double> last;
     for (std::size_t i = 0; i < f.used.size(); ++i) {
@@ -52,7 +51,7 @@ bool is_alike_in_time(const Outcome& f) {
         }
         last[test] = left;
     }
-    return pairs > 2.0 && product * std::sqrt(pairs) > alike * square;
+    return pairs > 2.0 && product * std::sqrt(pairs) > rules::alike * square;
 }
 
 /// Probability that something is missing in the model. What left-out readings do not confirm may

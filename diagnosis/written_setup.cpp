@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 
+#include "base/alarm.h"
 #include "diagnosis/doubted.h"
 #include "diagnosis/measured_places.h"
 #include "diagnosis/prepare/target_visits.h"
@@ -313,9 +314,8 @@ setup::Setup setup_of(const Outcome& f, const Model& model) {
                : set_up_alone(f);
 }
 
-/// False where the causes of a model, read by the emulator, leave more than none: errors of degrees
-/// or millimetres are not linear. `setup`: with the model, for all sessions alike.
-bool holds_when_read(const Outcome& f, const Model& model, const setup::Setup& setup) {
+/// What the emulator leaves with a setup beyond what the model leaves, mm; but for zeros of tests.
+Eigen::VectorXd bend_of(const Outcome& f, const Model& model, const setup::Setup& setup) {
     const Prepared& p = f.prepared;
     const Solution solution = solved(f.design, model);
     const std::vector<double> read = p.replay.predict(
@@ -323,6 +323,30 @@ bool holds_when_read(const Outcome& f, const Model& model, const setup::Setup& s
     const Eigen::Map<const Eigen::VectorXd> bent(read.data(), p.base.measured_mm.size());
     Eigen::VectorXd bend = p.base.measured_mm - bent - left_mm(p, f.design, model, solution);
     free_zeros(p.replay, p.base.sigma_mm, bend);
+    return bend;
+}
+
+/// The same setup with its poses and zeros fitted again, where the emulator reads it otherwise than
+/// the model: these move far along directions that readings hardly show, and are not linear there.
+setup::Setup read_again(const Outcome& f, const Model& model, setup::Setup setup) {
+    constexpr double least_bend = 0.25;  // of a sigma
+    const Prepared& p = f.prepared;
+    const Eigen::VectorXd bend = bend_of(f, model, setup).cwiseQuotient(p.base.sigma_mm);
+    if (!(bend.cwiseAbs().maxCoeff() > least_bend)) return setup;
+    try {
+        return identification::fit_base(setup, p.table, p.replay, p.catalogue, setup.model.modelled)
+            .setup;
+    } catch (const InputError&) {
+        return setup;  // implausible: holds_when_read() decides
+    }
+}
+
+/// False where the causes of a model, read by the emulator, leave more than none: errors of degrees
+/// or millimetres are not linear. `setup`: with the model, for all sessions alike.
+bool holds_when_read(const Outcome& f, const Model& model, const setup::Setup& setup) {
+    const Prepared& p = f.prepared;
+    const Solution solution = solved(f.design, model);
+    const Eigen::VectorXd bend = bend_of(f, model, setup);
     Eigen::VectorXd left = f.design.data() - f.design.known() * solution.mean.head(solution.known);
     for (std::size_t k = 0; k < model.members.size(); ++k)
         if (is_cause(f.design.group(model.members[k]).kind))
@@ -354,8 +378,9 @@ Written written_setup(const Outcome& f) {
         // rest holds at the measured places only, the part without it says nothing of a cause.
         if (w.part < rules::partly && f.judgement.between_places && !w.only_here) w.model = none;
         w.setup = setup_of(f, w.model);
-        if (has_causes(f, w.model) && !has_changes(f, w.model) &&
-            !holds_when_read(f, w.model, w.setup)) {
+        const bool causes = has_causes(f, w.model) && !has_changes(f, w.model);
+        if (causes) w.setup = read_again(f, w.model, std::move(w.setup));
+        if (causes && !holds_when_read(f, w.model, w.setup)) {
             w.model = none;
             w.part = 0.0;
             w.setup = set_up_alone(f);

@@ -33,6 +33,7 @@ struct EffectParameter {
     bool counts_periods = false;   ///< key: a number of periods in a turn, not a length or an angle
     int order = 0;                 ///< of a harmonic of a turn
     bool is_part = false;          ///< a fraction of a whole: from 0 to 1
+    bool is_positive = false;      ///< below zero there is none: nothing hangs upwards
     bool is_key() const { return !grid.empty(); }
 };
 

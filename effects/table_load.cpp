@@ -6,13 +6,15 @@
 namespace trunnion::effects {
 
 Effect gravity_sag(const kinematics::AxisGeometry& tilting) {
+    EffectParameter sag{"sag_mm", "mm", 5e-3, -1, {}, true};
+    sag.is_positive = true;
     return {identity_of(EffectKind::gravity_sag),
             "The tilted table hangs through under its own weight and the load on it",
             "flexible trunnion drive or bearings, heavy workpiece",
             "counterbalance or clamp the axis; compensate by tilt angle and load",
             "tilt angle + twist_rad (1 + m/100 kg) sin q; "
             "table down by sag_mm ((1 + m/100) cos^2 q - 1)",
-            {{"twist_rad", "rad", 25e-6, -1, {}, true}, {"sag_mm", "mm", 5e-3, -1, {}, true}},
+            {{"twist_rad", "rad", 25e-6, -1, {}, true}, sag},
             [k = tilting.axis](const AxisSample& sample, const emulator::Contact&,
                                std::span<const double> value, kinematics::Perturbation& out) {
                 const double load = 1.0 + sample.load_kg / 100.0;

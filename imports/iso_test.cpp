@@ -63,19 +63,17 @@ bool further_run(const IsoTest& a, const IsoTest& b) {
                         [&](const auto& pass) { return known.contains(pass); });
 }
 
-/// In the order of their times or, without any: run 1 in the direction of the first table, run 1 in
-/// the other one, run 2 ...
+/// In the order of their times or, without any: run 1 up, run 1 down, run 2 up ...
 void join(IsoTest& one, const IsoTest& other) {
     std::vector<IsoPoint>& points = one.series.points;
-    const int first = points.front().direction;
     points.insert(points.end(), other.series.points.begin(), other.series.points.end());
     if (one.series.timed) {
         std::stable_sort(points.begin(), points.end(),
                          [](auto& a, auto& b) { return a.time_s < b.time_s; });
         return;
     }
-    std::stable_sort(points.begin(), points.end(), [&](auto& a, auto& b) {
-        return std::pair(a.run, a.direction != first) < std::pair(b.run, b.direction != first);
+    std::stable_sort(points.begin(), points.end(), [](auto& a, auto& b) {
+        return std::pair(a.run, -a.direction) < std::pair(b.run, -b.direction);
     });
     step_times(one.facts, points);
 }

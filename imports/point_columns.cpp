@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "imports/column_roles.h"
@@ -170,24 +171,59 @@ PointColumns point_columns(const TextTable& table, const setup::Setup& setup, co
     return columns;
 }
 
-std::vector<MeasuredPoint> measured_points(const TextTable& table, const PointColumns& columns,
-                                           LeftOut& left_out) {
+namespace {
+
+/// The point of a line that gives one coordinate: the last one of its name, wherever it stands; of
+/// lines without names the one before, as long as it lacks the coordinate.
+class PointsOfLines {
+  public:
+    explicit PointsOfLines(const TextTable& table) : table_(table) {}
+
+    MeasuredPoint& of(std::size_t row, const std::string& name, std::size_t d) {
+        const auto [last, is_first] = last_.try_emplace(name, points.size());
+        if (is_first || filled_[last->second][d]) {
+            if (name.empty() && !is_first) seen_again(row, d);
+            last->second = points.size();
+            points.push_back({row, {}, {}, {}});
+            filled_.push_back({});
+        }
+        filled_[last->second][d] = true;
+        return points[last->second];
+    }
+    /// Throws InputError where lines without names stand sorted by coordinate: nobody tells which
+    /// of them are one point.
+    void check() const {
+        std::set<std::size_t> kinds;
+        for (const auto& filled : filled_)
+            for (std::size_t d = 0; d < 3; ++d)
+                if (filled[d]) kinds.insert(d);
+        if (alone_ && kinds.size() > 1)
+            table_.fail(*alone_, 0,
+                        "one coordinate follows itself, and other lines have the others: which "
+                        "are one point? a column \"name\" tells (--with columns=)");
+    }
+
     std::vector<MeasuredPoint> points;
+
+  private:
+    void seen_again(std::size_t row, std::size_t d) {
+        const auto& before = filled_.back();
+        if (std::count(before.begin(), before.end(), true) == 1 && before[d] && !alone_)
+            alone_ = row;
+    }
+
+    const TextTable& table_;
+    std::map<std::string, std::size_t> last_;  ///< last point of each name
+    std::vector<std::array<bool, 3>> filled_;  ///< coordinates that a line gave
+    std::optional<std::size_t> alone_;
+};
+
+std::vector<MeasuredPoint> points_of_lines(const TextTable& table, const PointColumns& columns,
+                                           LeftOut& left_out) {
+    PointsOfLines points(table);
     Cells cells;
-    std::string name;
     for (std::size_t i = 0; i < table.size(); ++i) {
         table.read(i, cells);
-        if (!columns.coordinate) {
-            MeasuredPoint point{i, {}, {}, {}};
-            for (std::size_t d = 0; d < 3; ++d) {
-                fill({table, i, cells}, columns, {d, d}, point);
-                const auto& column = columns.measured[d] ? columns.measured[d] : columns.error[d];
-                if (column && !point.measured[d])
-                    left_out.values.add(table.line(i).number, table.columns()[column->index].name);
-            }
-            points.push_back(point);
-            continue;
-        }
         const records::TableCell& cell = cells[*columns.coordinate];
         const auto role = role_of(cell.plain());
         const auto d = role ? component_of(role->axis) : std::nullopt;
@@ -195,12 +231,31 @@ std::vector<MeasuredPoint> measured_points(const TextTable& table, const PointCo
             left_out.names.push_back(cell.plain());
             continue;
         }
-        const std::string own = columns.name ? cells[*columns.name].plain() : "";
-        if (points.empty() || own != name || points.back().measured[*d])
-            points.push_back({i, {}, {}, {}});
-        name = own;
-        fill({table, i, cells}, columns, {0, *d}, points.back());
-        if (!points.back().measured[*d]) left_out.values.add(table.line(i).number, cell.plain());
+        MeasuredPoint& point = points.of(i, columns.name ? cells[*columns.name].plain() : "", *d);
+        fill({table, i, cells}, columns, {0, *d}, point);
+        if (!point.measured[*d]) left_out.values.add(table.line(i).number, cell.plain());
+    }
+    points.check();
+    return std::move(points.points);
+}
+
+}  // namespace
+
+std::vector<MeasuredPoint> measured_points(const TextTable& table, const PointColumns& columns,
+                                           LeftOut& left_out) {
+    if (columns.coordinate) return points_of_lines(table, columns, left_out);
+    std::vector<MeasuredPoint> points;
+    Cells cells;
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        table.read(i, cells);
+        MeasuredPoint point{i, {}, {}, {}};
+        for (std::size_t d = 0; d < 3; ++d) {
+            fill({table, i, cells}, columns, {d, d}, point);
+            const auto& column = columns.measured[d] ? columns.measured[d] : columns.error[d];
+            if (column && !point.measured[d])
+                left_out.values.add(table.line(i).number, table.columns()[column->index].name);
+        }
+        points.push_back(point);
     }
     return points;
 }

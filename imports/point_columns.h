@@ -43,7 +43,8 @@ struct LeftOut {
 
     void note(const std::string& path, std::vector<std::string>& notes) const;
 };
-/// In table order.
+/// In table order. Of coordinates one a line those of one name are one point, wherever they stand.
+/// Throws InputError where such lines have no names and stand sorted by coordinate.
 std::vector<MeasuredPoint> measured_points(const TextTable& table, const PointColumns& columns,
                                            LeftOut& left_out);
 /// True where the nominal point is not known: a coordinate that the table has for the others is

@@ -46,6 +46,9 @@ struct Reading {
     /// Of a thinned servo log: velocity, acceleration and jerk of its axis behind the time constant
     /// of its drive (records/smoothed_motion.h). Not in files.
     std::optional<Vector3> smoothing;
+    /// Of a row kept of a longer table: its sample among all rows (`samples_among`). Between fewer
+    /// rows speeds and reversal points are others. Not in files.
+    std::shared_ptr<const AxisSample> among_all;
     std::string session;     ///< day or set-up; a change starts a new session
     std::string instrument;  ///< name of an [[instrument]]; empty: the only one, or none
     std::string source;      ///< file:line of an imported value

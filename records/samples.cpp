@@ -7,22 +7,10 @@
 
 #include "records/passes.h"
 #include "records/smoothed_motion.h"
+#include "records/walk.h"
 
 namespace trunnion::records {
 namespace {
-
-AxisSample sample_of(const Reading& row) {
-    AxisSample sample;
-    sample.position = row.commanded;
-    sample.time_s = row.time_s;
-    sample.feed_mm_min = row.feed_mm_min;
-    sample.spindle_rad = row.spindle_rad;
-    sample.temperature_c = row.temperature_c;
-    sample.load_kg = row.load_kg;
-    sample.clamped = row.clamped;
-    sample.mode = row.mode;
-    return sample;
-}
 
 signed char sign_of(double moved, double rounding) {
     return moved > rounding ? 1 : moved < -rounding ? -1 : 0;
@@ -32,32 +20,53 @@ Vector3 linear_position(const Reading& row) {
     return {row.commanded[Axis::X], row.commanded[Axis::Y], row.commanded[Axis::Z]};
 }
 
+/// What the row was among the rows of a longer table. The side of an axis at rest is that of the
+/// present table, because it may be assumed anew.
+void take_among_all(const Reading& row, AxisSample& sample) {
+    const AxisSample& all = *row.among_all;
+    sample.since_reversal = all.since_reversal;
+    if (row.device != Device::ballbar) return;
+    sample.run_up_unknown = all.run_up_unknown;
+    sample.velocity = all.velocity;
+    sample.acceleration = all.acceleration;
+    sample.jerk = all.jerk;
+    sample.path_mm = all.path_mm;
+    for (std::size_t i = 0; i < axis_count; ++i)
+        if (all.velocity.value[i] != 0.0 || all.acceleration.value[i] != 0.0)
+            sample.travel[i] = all.travel[i];
+}
+
 /// Rows of one pass whose differences are velocities.
 class Pass {
   public:
     Pass(std::span<const Reading> all, const PassRows& rows, const AxisNames& names)
         : all_(all), rows_(rows), names_(names) {}
 
-    void fill(const std::vector<Axis>& axes, std::vector<AxisSample>& samples) const {
+    void fill(const std::vector<Axis>& axes, const Chosen& chosen,
+              std::vector<AxisSample>& samples) const {
         double path_mm = 0.0;
         for (std::size_t k = 0; k < rows_.size(); ++k) {
-            AxisSample& sample = samples[rows_[k]];
             if (k > 0) path_mm += arc_mm(k);
+            if (!chosen.has(rows_[k])) continue;
+            AxisSample& sample = samples[chosen.place_of(rows_[k])];
             sample.path_mm = path_mm;
             if (!is_continuous(row(k).device)) continue;
             const Neighbours around = neighbours(k);
             for (const Axis axis : axes) fill_velocity(k, around, axis, sample);
             fill_curvature(k, axes, sample);
             take_told(row(k), sample);
+            if (row(k).among_all) take_among_all(row(k), sample);
         }
     }
 
-    /// Adds what the time constant of the axis's drive makes of the motion.
-    void smooth(Axis axis, double time_constant_s, std::vector<AxisSample>& samples) const {
+    /// Adds what the time constant `time_constant_s` of the axis's drive makes of the motion.
+    void smooth(Axis axis, double time_constant_s, const Chosen& chosen,
+                std::vector<AxisSample>& samples) const {
         const std::vector<Vector3> motion = smoothed(axis, time_constant_s);
         for (std::size_t k = 0; k < rows_.size(); ++k) {
-            if (!is_continuous(row(k).device)) continue;
-            AxisSample& sample = samples[rows_[k]];
+            if (!is_continuous(row(k).device) || !chosen.has(rows_[k])) continue;
+            AxisSample& sample = samples[chosen.place_of(rows_[k])];
+            if (smooth_among_all(row(k), axis, sample)) continue;
             const Vector3 own(sample.velocity[axis], sample.acceleration[axis], sample.jerk[axis]);
             const bool told = row(k).smoothing && names_.find(row(k).feature) == axis;
             const Vector3 more = (told ? *row(k).smoothing : motion[k]) - own;
@@ -86,6 +95,16 @@ class Pass {
     }
 
   private:
+    /// True when the row was chosen from a longer table behind the same drives.
+    static bool smooth_among_all(const Reading& row, Axis axis, AxisSample& sample) {
+        if (!row.among_all || row.device != Device::ballbar) return false;
+        const AxisSample& all = *row.among_all;
+        sample.smooth_velocity[axis] = all.smooth_velocity[axis];
+        sample.smooth_acceleration[axis] = all.smooth_acceleration[axis];
+        sample.smooth_jerk[axis] = all.smooth_jerk[axis];
+        return all.smooth_velocity[axis] != 0.0 || all.smooth_acceleration[axis] != 0.0;
+    }
+
     const Reading& row(std::size_t k) const { return all_[rows_[k]]; }
     double q(std::size_t k, Axis axis) const { return row(k).commanded[axis]; }
 
@@ -182,78 +201,6 @@ class Pass {
     const AxisNames& names_;
 };
 
-bool dense(const Reading& a, const Reading& b) {
-    return a.device == Device::ballbar && b.device == Device::ballbar && a.test == b.test;
-}
-
-/// Reversal point of each axis that reversed at row k: vertex of the parabola through its
-/// neighbours.
-AxisPositions turning_points(std::span<const Reading> rows, std::size_t k) {
-    AxisPositions at = rows[k].commanded;
-    for (std::size_t i = 0; i < axis_count; ++i) {
-        const double a = rows[k - 1].commanded.value[i] - at.value[i],
-                     b = rows[k + 1].commanded.value[i] - at.value[i];
-        if (a + b != 0.0) at.value[i] -= (b - a) * (b - a) / (8.0 * (a + b));
-    }
-    return at;
-}
-
-/// An axis that starts at its reversal point (a circle started at a quadrant) moves three times as
-/// far in the second step as in the first.
-void assume_turns(std::span<const Reading> rows, std::size_t k, TravelHistory& history) {
-    if (k + 2 >= rows.size() || !dense(rows[k], rows[k + 1]) || !dense(rows[k], rows[k + 2]))
-        return;
-    for (std::size_t i = 0; i < axis_count; ++i) {
-        const double first = rows[k + 1].commanded.value[i] - rows[k].commanded.value[i],
-                     second = rows[k + 2].commanded.value[i] - rows[k + 1].commanded.value[i];
-        if (first * second > 0.0 && std::abs(first) < 0.5 * std::abs(second))
-            history.assume_turned(i);
-    }
-}
-
-/// Processes the rows in order through the history.
-class Walk {
-  public:
-    Walk(std::span<const Reading> rows, TravelHistory history) : rows_(rows), history_(history) {}
-
-    std::vector<AxisSample> samples() {
-        samples_.reserve(rows_.size());
-        for (std::size_t k = 0; k < rows_.size(); ++k) step(k);
-        return std::move(samples_);
-    }
-
-  private:
-    void step(std::size_t k) {
-        const bool begins = k == 0 ? history_.begun() : way_unknown(rows_[k - 1], rows_[k]);
-        if (k > 1 && dense(rows_[k - 2], rows_[k - 1]) && dense(rows_[k - 1], rows_[k])) {
-            const AxisPositions turned_at = turning_points(rows_, k - 1);
-            history_.advance(rows_[k].commanded, &turned_at);
-            look_back(k, turned_at);
-        } else {
-            history_.advance(rows_[k].commanded);
-        }
-        if (begins) history_.begin_anew();
-        if (begins) assume_turns(rows_, k, history_);
-        samples_.push_back(sample_of(rows_[k]));
-        history_.describe(samples_.back());
-    }
-
-    /// The axis reversed before the last row, so it did not continue to that row.
-    void look_back(std::size_t k, const AxisPositions& turned_at) {
-        for (std::size_t i = 0; i < axis_count; ++i) {
-            const double from = rows_[k - 2].commanded.value[i], at = rows_[k].commanded.value[i];
-            if (!history_.just_turned(i) || (at - from) * history_.travel()[i] <= 0.0) continue;
-            samples_[k - 1].since_reversal[i] =
-                std::abs(rows_[k - 1].commanded.value[i] - turned_at.value[i]);
-            samples_[k - 1].run_up_unknown[i] = false;
-        }
-    }
-
-    std::span<const Reading> rows_;
-    TravelHistory history_;
-    std::vector<AxisSample> samples_;
-};
-
 /// Sides before the first row: from the file head, for its first session.
 AxisSides sides_before(const ReadingTable& table, std::size_t begin) {
     if (begin == 0) return table.side_before;
@@ -262,34 +209,43 @@ AxisSides sides_before(const ReadingTable& table, std::size_t begin) {
     return first && known != table.part_sides.end() ? known->second : AxisSides{};
 }
 
+/// The table's axes, their names, and the time constants of their drives.
+struct AxesOfRows {
+    const std::vector<Axis>& axes;
+    const AxisNames& names;
+    const TimeConstants& constants;
+};
+
+/// The samples of the chosen ones of `rows`, which are of one session and continue `history`.
+std::vector<AxisSample> samples_in(std::span<const Reading> rows, const AxesOfRows& of,
+                                   const TravelHistory& history, const Chosen& chosen) {
+    std::vector<AxisSample> samples = walked(rows, history, chosen);
+    for (AxisSample& sample : samples)
+        for (const Axis axis : of.axes)
+            sample.side_unknown[index_of(axis)] = sample.travel[index_of(axis)] == 0;
+    for (const PassRows& list : passes_of(rows)) {
+        const Pass pass(rows, list, of.names);
+        pass.fill(of.axes, chosen, samples);
+        for (const Axis axis : of.axes)
+            if (const double seconds = of.constants[index_of(axis)]; seconds > 0.0)
+                pass.smooth(axis, seconds, chosen, samples);
+    }
+    for (AxisSample& sample : samples)
+        for (const Axis axis : of.axes)
+            if (sample.velocity[axis] != 0.0) sample.side_unknown[index_of(axis)] = false;
+    return samples;
+}
+
 }  // namespace
 
 bool is_continuous(Device device) {
     return device == Device::ballbar || device == Device::axis;
 }
 
-bool way_unknown(const Reading& from, const Reading& to) {
-    return from.device != Device::none && from.test != to.test;
-}
-
 std::vector<AxisSample> samples_of(std::span<const Reading> rows, const std::vector<Axis>& axes,
                                    TravelHistory history, const AxisNames& names,
                                    const TimeConstants& constants) {
-    std::vector<AxisSample> samples = Walk(rows, history).samples();
-    for (AxisSample& sample : samples)
-        for (const Axis axis : axes)
-            sample.side_unknown[index_of(axis)] = sample.travel[index_of(axis)] == 0;
-    for (const PassRows& list : passes_of(rows)) {
-        const Pass pass(rows, list, names);
-        pass.fill(axes, samples);
-        for (const Axis axis : axes)
-            if (const double seconds = constants[index_of(axis)]; seconds > 0.0)
-                pass.smooth(axis, seconds, samples);
-    }
-    for (std::size_t k = 0; k < rows.size(); ++k)
-        for (const Axis axis : axes)
-            if (samples[k].velocity[axis] != 0.0) samples[k].side_unknown[index_of(axis)] = false;
-    return samples;
+    return samples_in(rows, {axes, names, constants}, history, Chosen(rows.size()));
 }
 
 std::vector<AxisSample> samples_of(const ReadingTable& table, const TimeConstants& constants) {
@@ -303,6 +259,26 @@ std::vector<AxisSample> samples_of(const ReadingTable& table, const TimeConstant
         if (end - begin == rows.size()) return part;
         samples.insert(samples.end(), part.begin(), part.end());
         begin = end;
+    }
+    return samples;
+}
+
+std::vector<AxisSample> samples_among(const ReadingTable& table,
+                                      std::span<const std::size_t> chosen,
+                                      const TimeConstants& constants) {
+    std::vector<AxisSample> samples;
+    const std::span<const Reading> rows(table.rows);
+    for (std::size_t begin = 0, done = 0; begin < rows.size();) {
+        const std::size_t end = session_end(table.rows, begin);
+        std::size_t next = done;
+        while (next < chosen.size() && chosen[next] < end) ++next;
+        const TravelHistory history(sides_before(table, begin), rows_rounding, table.names);
+        const Chosen here(end - begin, begin, chosen.subspan(done, next - done));
+        const auto part = samples_in(rows.subspan(begin, end - begin),
+                                     {table.axes, table.names, constants}, history, here);
+        samples.insert(samples.end(), part.begin(), part.end());
+        begin = end;
+        done = next;
     }
     return samples;
 }

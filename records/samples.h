@@ -1,4 +1,5 @@
-// Axis samples of the rows of a table: sides, velocities and distances by the rules of the format.
+// Axis samples of the rows of a table: sides, velocities and distances by the rules of the
+// format (samples.cpp, walk.cpp).
 #pragma once
 
 #include <optional>
@@ -34,6 +35,11 @@ std::vector<AxisSample> samples_of(const ReadingTable& table, const TimeConstant
 std::vector<AxisSample> samples_of(std::span<const Reading> rows, const std::vector<Axis>& axes,
                                    TravelHistory history, const AxisNames& names = {},
                                    const TimeConstants& constants = {});
+/// The samples that the `chosen` rows (indices, in order) have among all rows of the table, without
+/// the memory of those of the others.
+std::vector<AxisSample> samples_among(const ReadingTable& table,
+                                      std::span<const std::size_t> chosen,
+                                      const TimeConstants& constants = {});
 
 /// Velocity, acceleration and jerk (mm/s.., rad/s..) of the axis of an `axis` row.
 struct LoggedMotion {

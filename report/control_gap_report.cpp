@@ -107,8 +107,13 @@ std::string place_words(const choices::GapPlace& place) {
 }
 
 std::string number_words(const choices::FittedNumber& n) {
-    return fmt::format("{} from {} to {} {}", n.name, three_digits(n.from),
-                       with_sigma(n.to, n.sigma), n.unit);
+    // To the digits of the found one: "from 10.1 to 10.000000" would tell another change.
+    std::string from = rounded(n.from, n.sigma).value;
+    if (from.find('.') != std::string::npos && from.find('e') == std::string::npos) {
+        from.erase(from.find_last_not_of('0') + 1);
+        if (from.back() == '.') from.pop_back();
+    }
+    return fmt::format("{} from {} to {} {}", n.name, from, with_sigma(n.to, n.sigma), n.unit);
 }
 
 std::string verdict_sentence(const choices::ControlGap& gap) {

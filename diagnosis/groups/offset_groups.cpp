@@ -85,6 +85,8 @@ void add_probe_zeros(Design& design, const Prepared& p, const Whitener& whitener
             usual_zero_mm * p.replay.contact(k).direction_M.transpose();
     }
     add_group(design, whitener, group_named("zero of a test", single_tests), std::move(of_work));
+    // Between two tests the machine may have jumped as well; of more, zeros scatter.
+    if (count < 3) return;
     ColumnGroup machine = group_named("zero of a test in the machine frame", single_tests);
     machine.component = "machine frame";
     add_group(design, whitener, std::move(machine), std::move(of_machine));

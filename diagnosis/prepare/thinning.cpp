@@ -11,8 +11,7 @@ namespace {
 
 using records::Device;
 
-/// Velocities and reversals are computed from differences of rows, so one row in every 3 degrees of
-/// a turn is kept.
+/// One row in every 3 degrees of a turn is kept.
 constexpr std::size_t least_of_pass = 120;
 
 /// A device that reads all the time; the others are read once for each place by hand or program.
@@ -77,7 +76,7 @@ class Thinner {
             if (is_pass(row.device)) ++length_[row.test];
     }
 
-    std::vector<records::Reading> rows() {
+    std::vector<records::Reading> rows(const TimeConstants& constants) {
         for (const records::Reading& row : table_.rows) {
             if (is_pass(row.device))
                 add_of_pass(row);
@@ -86,6 +85,7 @@ class Thinner {
             else
                 add_of_pose(row);
         }
+        tell_samples(constants);
         return std::move(kept_);
     }
 
@@ -118,6 +118,17 @@ class Thinner {
         waiting_.clear();
         kept_.push_back(row);
         if (!motion_.empty()) tell_motion(motion_[index_of(row)], kept_.back());
+        if (!is_stream(row.device)) return;
+        of_streams_.push_back(kept_.size() - 1);
+        chosen_.push_back(index_of(row));
+    }
+
+    /// Rows of streams get the speeds and reversal points of the whole table: differences of rows
+    /// that were chosen here and there are no speeds.
+    void tell_samples(const TimeConstants& constants) {
+        const std::vector<AxisSample> samples = records::samples_among(table_, chosen_, constants);
+        for (std::size_t i = 0; i < samples.size(); ++i)
+            kept_[of_streams_[i]].among_all = std::make_shared<const AxisSample>(samples[i]);
     }
 
     std::size_t index_of(const records::Reading& row) const {
@@ -131,6 +142,7 @@ class Thinner {
     const records::Reading* pose_ = nullptr;
     std::map<std::string, std::size_t> seen_, length_;  ///< rows of each pass: so far, in total
     std::vector<records::Reading> kept_, waiting_;
+    std::vector<std::size_t> of_streams_, chosen_;  ///< rows of streams: among those kept, in all
 };
 
 bool has_log(const records::ReadingTable& table) {
@@ -161,7 +173,7 @@ std::optional<records::ReadingTable> thinned(const records::ReadingTable& table,
     const Steps steps = steps_for(table, most);
     std::vector<records::LoggedMotion> motion;
     if (has_log(table)) motion = records::logged_motion(table, constants);
-    fewer.rows = Thinner(table, steps, std::move(motion)).rows();
+    fewer.rows = Thinner(table, steps, std::move(motion)).rows(constants);
     return fewer;
 }
 

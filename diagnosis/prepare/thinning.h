@@ -12,8 +12,9 @@ namespace trunnion::diagnosis {
 /// of `most`: few readings of one device beside the stream of another are what was asked for. Of
 /// streams (ballbar, servo log), and of more places than that: of passes one row of each stretch of
 /// n, at varying positions so that no period coincides with the selection; the first row of each
-/// test (its zero refers to it), and at least 120 rows of each pass; rows of a servo log are told
-/// the commanded motion of the whole log, behind the time `constants` of the drives too.
+/// test (its zero refers to it), and at least 120 rows of each pass; each row keeps its
+/// motion among all rows (Reading::among_all), a servo log's behind the time `constants` of the
+/// drives too.
 /// Of poses every n-th completely; the pose before it is kept as rows without device, because it
 /// defines the side of approach. The uncertainty of parameters grows by the square root of n; they
 /// are not biased.

@@ -42,9 +42,13 @@ constexpr double between_part = 0.2;   ///< maximum part of the gap carried by t
                                        ///< interpolate
 constexpr double between_least = 0.5;  ///< part that a table must predict at left-out positions
 
-constexpr std::size_t bend_places = 5;  ///< from which a bend of known form holds between them
-                                        ///< (assumed)
-constexpr double many_places = 8.0;     ///< ... of fewer with this probability of no accident
+constexpr double alike =
+    4.0;  ///< deviations: readings are correlated beyond (assumed); chance 1e-4
+constexpr std::size_t table_places = 7;  ///< from which a curve of any form may hold between them:
+                                         ///< of fewer, a ripple looks as smooth (assumed)
+constexpr std::size_t bend_places = 5;   ///< from which a bend of known form holds between them
+                                         ///< (assumed)
+constexpr double many_places = 8.0;      ///< ... of fewer with this probability of no accident
 constexpr double between_sure = 0.8;
 
 constexpr double least_share = 0.05;  ///< of the gap: smaller effects are background ...

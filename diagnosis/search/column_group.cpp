@@ -16,9 +16,10 @@ bool are_kindred(const TableForm& a, const TableForm& b) {
     return a.axis.axis == b.axis.axis && (a.play == nullptr) == (b.play == nullptr);
 }
 
-bool ColumnGroup::has_parts() const {
-    return std::any_of(parameters.begin(), parameters.end(),
-                       [&](std::size_t j) { return effect->parameters[j].is_part; });
+bool ColumnGroup::has_range() const {
+    return std::any_of(parameters.begin(), parameters.end(), [&](std::size_t j) {
+        return effect->parameters[j].is_part || effect->parameters[j].is_positive;
+    });
 }
 
 bool has_keys(const effects::Effect& effect) {

@@ -228,19 +228,21 @@ Model empty_model(Design& design, const SearchSetting& setting) {
 namespace {
 
 /// True where the fit gives a parameter a size that it cannot have: no control rounds its positions
-/// by 500 times the increment, whatever this explains. `mean`: of the members' coefficients.
+/// by 500 times the increment, and no table rises under its weight, whatever this explains. `mean`:
+/// of the members' coefficients.
 bool is_impossible(const Design& design, const Model& model, const Eigen::VectorXd& mean) {
-    constexpr double beyond = 0.2;  // of the range: noise may lead out of it
+    constexpr double beyond = 0.2;  // of the range or the usual size: noise may lead out of it
     Eigen::Index at = 0;
     for (const std::size_t m : model.members) {
         const ColumnGroup& group = design.group(m);
         const auto own = mean.segment(std::exchange(at, at + group.columns()), group.columns());
-        if (!group.has_parts()) continue;
+        if (!group.has_range()) continue;
         const Eigen::VectorXd value = group.feature_values(own);
         for (std::size_t j = 0; j < group.parameters.size(); ++j) {
             const effects::EffectParameter& p = group.effect->parameters[group.parameters[j]];
-            const double part = p.typical * value(static_cast<Eigen::Index>(j));
+            const double usual = value(static_cast<Eigen::Index>(j)), part = p.typical * usual;
             if (p.is_part && (part < -beyond || part > 1.0 + beyond)) return true;
+            if (p.is_positive && usual < -beyond) return true;
         }
     }
     return false;

@@ -113,7 +113,12 @@ EvidenceOf evidence_of(const Searching& search, const Model& model, const Offer&
         std::vector<double>& list = again ? same : makes_doubtful(cause, group) ? kindred : other;
         const std::size_t before = list.size();
         weights.add(with(rest, o), own - nats_of(design, o), list);
-        if (list.size() > before) list.back() -= unusual_size(design, o);
+        if (list.size() == before) continue;
+        list.back() -= unusual_size(design, o);
+        // A ripple that the places do not resolve has the values of a slow wave there. That is a
+        // form of the table, of no more numbers: the ripple is no more likely.
+        if (is_ripple_of(cause, group) && design.groups()[o.group].only_rival)
+            list.back() = std::min(list.back(), 0.0);
     }
     weigh_one_for_two(search, model, held, weights, other);
     for (const TwoInstead& pair : instead.pairs) {

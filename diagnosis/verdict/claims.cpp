@@ -12,10 +12,17 @@
 #include "diagnosis/verdict/cause_evidence.h"
 #include "diagnosis/verdict/contenders.h"
 #include "diagnosis/verdict/line_of_form.h"
+#include "diagnosis/verdict/order.h"
 #include "diagnosis/verdict/reply.h"
+#include "diagnosis/verdict/shares.h"
 #include "estimation/distributions.h"
 
 namespace trunnion::diagnosis {
+
+effects::EffectKind motion_of(const ColumnGroup& group) {
+    return group.effect ? group.effect->kind : group.table.motion;
+}
+
 namespace {
 
 constexpr double doubtful = 0.4;  ///< probability at most of causes that cancel each other
@@ -45,10 +52,6 @@ double temper(const Sizes& sizes, std::size_t k, const HeldOutEvidence& heldout)
         expected += heldout.variance * own[b];
     }
     return 1.0 / std::max(1.0, expected > 0.0 ? square / expected : 1.0);
-}
-
-effects::EffectKind motion_of(const ColumnGroup& group) {
-    return group.effect ? group.effect->kind : group.table.motion;
 }
 
 /// A jump of the machine stands against a move of an artefact and against a drift, which are
@@ -303,35 +306,6 @@ double sum_of_causes(const Design& design, const Model& model, const Sizes& size
     return sum / std::max(1e-12, sizes.whole);
 }
 
-/// The positioning error of one axis (EXX of ISO 230-1) stands in two claims, its scale and a table
-/// beside it. The smaller part says nothing of another error and stands behind those.
-void mark_second_parts(const Design& design, const Model& model, std::vector<Claim>& claims) {
-    const auto group = [&](const Claim& claim) -> const ColumnGroup& {
-        return design.group(model.members[claim.position]);
-    };
-    for (Claim& table : claims) {
-        if (group(table).kind != GroupKind::table ||
-            motion_of(group(table)) != effects::EffectKind::positioning)
-            continue;
-        for (Claim& scale : claims) {
-            if (group(scale).kind != GroupKind::textbook ||
-                motion_of(group(scale)) != effects::EffectKind::scale ||
-                *group(scale).effect->axis != group(table).table.axis.axis ||
-                std::min(table.probability, scale.probability) < rules::claimed)
-                continue;
-            (scale.share < table.share ? scale : table).second_part = true;
-        }
-    }
-}
-
-/// What is rather not there stands behind what is claimed.
-void put_in_order(std::vector<Claim>& claims) {
-    std::stable_sort(claims.begin(), claims.end(), [](const Claim& a, const Claim& b) {
-        return std::tuple(a.probability >= rules::claimed, !a.second_part, a.share) >
-               std::tuple(b.probability >= rules::claimed, !b.second_part, b.share);
-    });
-}
-
 }  // namespace
 
 std::vector<Claim> claims_of(const Searching& search, const Model& model, const Sizes& sizes,
@@ -341,6 +315,7 @@ std::vector<Claim> claims_of(const Searching& search, const Model& model, const 
     OffersBeside beside(design, model);
     std::vector<Claim> claims;
     const std::vector<double> usual = usual_sizes(design, model);
+    const std::vector<double> shares = shares_of(design, model, sizes);
     // Where far more remains than noise may be, sigma is no measure of what is small.
     const double left = model.variances.nu / std::sqrt(sizes.floor);
     const double least_rms = rules::least_rms * (left > 2.0 ? left : 1.0);
@@ -350,7 +325,7 @@ std::vector<Claim> claims_of(const Searching& search, const Model& model, const 
         Claim claim;
         claim.position = k;
         claim.name = group.name;
-        claim.share = std::clamp(sizes.along[k] / std::max(1e-12, sizes.whole), 0.0, 1.0);
+        claim.share = shares[k];
         claim.own = sizes.square[k] / std::max(1e-12, sizes.whole);
         claim.rms = std::sqrt(sizes.square[k] / std::max(1.0, design.rows()));
         if (claim.share < rules::least_share && claim.rms < least_rms) continue;
@@ -371,7 +346,8 @@ std::vector<Claim> claims_of(const Searching& search, const Model& model, const 
         const double seen_axis = std::min(seen, told.axis);
         claim.probability = std::min(probability_against(contender),
                                      told.axis > 0.0 ? seen_axis * told.cause / told.axis : 0.0);
-        if (works_against_others(design, model, sizes, k))
+        const bool largest = shares[k] >= *std::max_element(shares.begin(), shares.end());
+        if (!largest && works_against_others(design, model, sizes, k))
             claim.probability = std::min(claim.probability, doubtful);
         share_with_angles(design, group, claim);
         name_rivals(design, worth[k], instead, claim);
@@ -387,8 +363,7 @@ std::vector<Claim> claims_of(const Searching& search, const Model& model, const 
     if (sum_of_causes(design, model, sizes) > rules::most_own)
         for (Claim& claim : claims) claim.probability = std::min(claim.probability, doubtful);
     doubt_lines_of_forms(design, model, claims);
-    mark_second_parts(design, model, claims);
-    put_in_order(claims);
+    put_in_order(design, model, claims);
     return claims;
 }
 

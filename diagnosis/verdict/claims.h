@@ -18,6 +18,9 @@ struct Sizes {
 /// `large` marks zeros that are part of the gap.
 Sizes sizes_of(Design& design, const Model& model, double floor, const std::vector<bool>& large);
 
+/// The error motion of a cause, in whatever form.
+effects::EffectKind motion_of(const ColumnGroup& group);
+
 /// Name of a rival: the table is mistaken. No setup contains it.
 inline constexpr const char* mistaken_readings = "readings.mistaken";
 

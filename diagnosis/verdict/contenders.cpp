@@ -316,6 +316,10 @@ void share_contenders(const Design& design, const Standing& chosen, const Model&
 std::optional<Contender> replied(const Searching& search, const Standing& chosen, FoldColumns& rows,
                                  const std::string& cause, Contender& contender) {
     if (contender.model.members.empty() || probability_against(contender) >= rules::sure) return {};
+    // A jump and a spoiled visit are no causes: none stands beside them.
+    if (std::any_of(contender.model.members.begin(), contender.model.members.end(),
+                    [&](std::size_t m) { return search.design.groups()[m].only_rival; }))
+        return {};
     Standing standing(rows, reply_to(search, chosen.model, contender.model, cause));
     if (!(standing.weight > chosen.weight)) return {};
     contender = against(rows, standing, std::move(contender.model));

@@ -60,6 +60,8 @@ Model with_free_line(const Design& design, Model model, const ColumnGroup& table
 bool holds_between(Design& design, const Prepared& prepared, const Model& model,
                    std::size_t position, const std::vector<bool>& used) {
     const ColumnGroup& group = design.group(model.members[position]);
+    const bool slide = !group.table.knots.empty() && !group.table.axis.rotary;
+    if (slide && place_count(prepared, group.table.axis.axis) < rules::table_places) return false;
     const Model free = with_free_line(design, model, group);
     const LeftOut left(design, free, place_folds(prepared.replay, group.table), used);
     std::vector<bool> all(free.members.size(), true), rest = all;
@@ -236,11 +238,10 @@ double part_of(const Judgement& j, double unknowns) {
 /// A gap where what is left of neighbours is alike: noise is then at most what they do not share.
 void see_neighbours(const Prepared& p, const std::vector<bool>& used,
                     const Eigen::VectorXd& remainder, double unknowns, Judgement& j) {
-    constexpr double least = 4.0;  // deviations (assumed): chance below 1e-4
     const auto rows = static_cast<Eigen::Index>(used.size());
     const NeighbourNoise near =
         noise_of_neighbours(p.replay, used, remainder.head(rows), Eigen::VectorXd::Ones(rows));
-    if (near.alike < least || near.variance >= j.floor) return;
+    if (near.alike < rules::alike || near.variance >= j.floor) return;
     j.gap = j.alike_near = true;
     j.floor = near.variance;
     j.part = part_of(j, unknowns);

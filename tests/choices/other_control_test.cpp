@@ -235,6 +235,26 @@ TEST_CASE("numbers of the block that is read ahead do not make a gap of position
     CHECK(stale.causes[0].numbers.size() == 3);
 }
 
+TEST_CASE("a rapid without interpolation is compared with its corner") {
+    const auto there = log_bench::setup_of(
+        "[machine]\nname = \"m\"\nchain = \"w b X Y Z t\"\n[control]\ndialect = \"hurco\"\n");
+    const choices::ControlPath path = [&] {
+        interpreter::ProgramsInMemory none;
+        return choices::path_of(there, log_bench::program_of("N10 G0 X50. Y-30. Z7.\nN20 M30\n"),
+                                none, {});
+    }();
+    // All axes at the same speed: Z arrives first, then Y, then X.
+    for (const Vector3& corner : {Vector3(7, -7, 7), Vector3(30, -30, 7), Vector3(50, -30, 7)}) {
+        double nearest = 1e9;
+        for (const choices::PathNode& node : path.nodes)
+            nearest = std::min(
+                nearest,
+                (Vector3(node.at.value[0], node.at.value[1], node.at.value[2]) - corner).norm());
+        CHECK(nearest < 0.001);
+    }
+    CHECK(path.nodes.size() < 100);
+}
+
 TEST_CASE("rows behind a stop that are left to earlier moves do not ask for another control") {
     const std::string twice = R"(N10 G90 G21 G17 G54
 N20 G0 X5. Y2. Z30.

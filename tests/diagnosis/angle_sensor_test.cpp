@@ -68,6 +68,19 @@ TEST_CASE("one harmonic of an angle sensor is named by its order", "[diagnosis]"
     CHECK_THAT(cause.what, Catch::Contains("order 4") && Catch::Contains("17.2 deg"));
 }
 
+TEST_CASE("one harmonic is named where a part of the turn shows its periods", "[diagnosis]") {
+    const double span_deg = GENERATE(180.0, 284.0);
+    records::ReadingTable table =
+        turn(80, 1.0, 1, [&](double q) { return 100e-6 * std::sin(4.0 * q * span_deg / 360.0); });
+    for (records::Reading& row : table.rows) row.commanded[Axis::C] *= span_deg / 360.0;
+    const diagnosis::Diagnosis d = diagnosed(sensor(1.0), table);
+    INFO(span_deg << ": " << said(d));
+    REQUIRE(!d.causes.empty());
+    CHECK(d.causes.front().effect == "C.positioning");
+    CHECK_THAT(d.causes.front().what, Catch::Contains("order 4"));
+    for (std::size_t k = 1; k < d.causes.size(); ++k) CHECK(d.causes[k].probability < 0.5);
+}
+
 TEST_CASE("the harmonics of an angle sensor are followed as far as its places tell them",
           "[diagnosis]") {
     // A disc that is wrong at every scale: beyond order 24 there are 2.2 urad.

@@ -4,48 +4,12 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "base/random.h"
 #include "diagnosis/rules/rules.h"
+#include "tests/support/made_columns.h"
 
 namespace trunnion {
+using namespace made_columns;
 namespace {
-
-constexpr int rows = 400, blocks = 80;
-
-Eigen::MatrixXd random_matrix(SeededNoise& random, Eigen::Index columns) {
-    Eigen::MatrixXd m(rows, columns);
-    for (Eigen::Index c = 0; c < columns; ++c)
-        for (Eigen::Index r = 0; r < rows; ++r) m(r, c) = random.normal();
-    return m;
-}
-
-const effects::Effect& straightness_of_Z() {
-    static const effects::Effect effect{
-        {"Z.straightness", effects::EffectKind::straightness, Axis::Z}, "", "", "", "", {}, {}};
-    return effect;
-}
-
-diagnosis::ColumnGroup group_of(diagnosis::Design& design, const std::string& name,
-                                diagnosis::GroupKind kind, const Eigen::MatrixXd& columns) {
-    diagnosis::ColumnGroup group;
-    group.kind = kind;
-    group.name = name;
-    group.log_prior = diagnosis::rules::effect_prior;
-    if (kind == diagnosis::GroupKind::textbook) group.effect = &straightness_of_Z();
-    group.table.motion = effects::EffectKind::straightness;
-    group.table.axis.axis = name[0] == 'Z' ? Axis::Z : Axis::X;
-    group.table.axis.name = name.substr(0, 1);
-    const Eigen::Index first = design.add_features(columns);
-    for (Eigen::Index k = 0; k < columns.cols(); ++k) group.features.push_back(first + k);
-    return group;
-}
-
-diagnosis::Folds folds_of_blocks() {
-    diagnosis::Folds folds;
-    for (int i = 0; i < rows; ++i) folds.group.push_back(i * blocks / rows);
-    for (int b = 0; b < blocks; ++b) folds.fold.push_back(b % diagnosis::Folds::count);
-    return folds;
-}
 
 /// The claims of a model whose members left-out readings support without doubt. `between`: they
 /// hold between their places, too.
@@ -166,7 +130,8 @@ TEST_CASE("a ripple that the places do not resolve is what a table gives at thes
         const auto claims = claims_of({design, setting}, unrivalled(model), between);
         const diagnosis::Claim& claim = claim_named(claims, "Z.positioning");
         INFO(between << ' ' << claim.probability);
-        CHECK((claim.probability < 0.1) == between);
+        // Between its places the table may be a slow wave of the same values: as likely as not.
+        CHECK((claim.probability == Approx(0.5).margin(0.01)) == between);
         CHECK((claim.probability > 0.9) == !between);
         CHECK(claim.rivals == std::vector<std::string>{"Z.cyclic"});
     }

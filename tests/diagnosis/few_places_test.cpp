@@ -146,15 +146,19 @@ TEST_CASE("the interval of a table of few places holds between them", "[diagnosi
 
 TEST_CASE("independent errors of few uneven places are no ripple between them",
           "[diagnosis][few_places]") {
+    int accidents = 0;
     for (unsigned seed = 1; seed <= 16; ++seed) {
         const auto at_mm = uneven_places(8 + seed % 4, 500.0, seed);
         const diagnosis::Diagnosis d =
             diagnosed(readings({at_mm, 3, 3e-4}, rough(8e-4, at_mm, seed), seed));
-        INFO(seed << '\n' << said(d));
         for (const diagnosis::Cause& cause : d.causes)
-            if (cause.effect == "X.cyclic" && cause.probability >= 0.5)
-                CHECK_FALSE(cause.holds_between);
+            if (cause.effect == "X.cyclic" && cause.probability >= 0.5) {
+                INFO(seed << '\n' << said(d));
+                CHECK(cause.probability < 0.9);
+                accidents += cause.holds_between;
+            }
     }
+    CHECK(accidents <= 1);  // of 16, at a chance of 5 %
 }
 
 TEST_CASE("a ripple at many uneven places is one between them, too", "[diagnosis][few_places]") {

@@ -1,7 +1,9 @@
 // A plate measured at points: the part lies as it was clamped, so that its pose is free.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <random>
+#include <string>
 
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/groups/candidate_groups.h"
@@ -13,13 +15,14 @@
 namespace trunnion {
 namespace {
 
-setup::Setup bench() {
+setup::Setup bench(const std::string& noise_um = "1.5") {
     std::vector<std::string> notes;
     return setup::parse_setup(
         "[machine]\nname = \"m\"\nchain = \"w b X Y Z t\"\n"
         "[[artefact]]\nname = \"R1\"\nkind = \"target\"\ntool_mm = [0, 0, -150]\n"
         "[[instrument]]\nname = \"CMM\"\nframe = \"W\"\nfree = [\"pose\"]\n"
-        "[model]\nmodelled = []\nnoise_um = { point = 1.5 }\n",
+        "[model]\nmodelled = []\nnoise_um = { point = " +
+            noise_um + " }\n",
         "s.toml", notes);
 }
 
@@ -203,6 +206,52 @@ TEST_CASE("a spoiled coordinate is set aside where nobody states the noise", "[d
     CHECK(d.outliers == 1);
     CHECK(d.verdict != diagnosis::Verdict::no_gap);
     CHECK(d.noise_um.value() < 0.4);
+}
+
+// The form of a plate that no axis has: of 4.5 um where 3 um are stated it is no noise, although
+// nothing repeats.
+TEST_CASE("readings that are alike at near places are a gap, and what is stated is told",
+          "[diagnosis]") {
+    const setup::Setup setup = bench("3");
+    for (const bool formed : {true, false}) {
+        std::mt19937_64 engine(7);
+        std::uniform_real_distribution<double> at(0.0, 600.0);
+        std::normal_distribution<double> noise(0.0, formed ? 3e-3 : 4.5e-3);
+        records::ReadingTable table;
+        table.path = "plate.csv";
+        table.axes = {Axis::X, Axis::Y, Axis::Z};
+        for (int k = 0; k < 320; ++k) {
+            records::Reading row;
+            row.index = k;
+            row.time_s = 60.0 * (k / 2);
+            row.test = "plate";
+            row.device = records::Device::point;
+            row.feature = "R1";
+            row.instrument = "CMM";
+            row.direction_M = Vector3::Unit(k % 2);
+            if (k % 2 == 0) {
+                row.commanded[Axis::X] = at(engine);
+                row.commanded[Axis::Y] = at(engine);
+            } else {
+                row.commanded = table.rows.back().commanded;
+            }
+            const double x = row.commanded[Axis::X], y = row.commanded[Axis::Y];
+            row.value_mm =
+                noise(engine) +
+                (formed ? 6.5e-3 * std::sin(x / 45.0 + k % 2) * std::cos(y / 40.0) : 0.0);
+            table.rows.push_back(row);
+        }
+        table.optional_columns = {"instrument"};
+        const diagnosis::Diagnosis d = diagnosed(setup, table);
+        INFO(formed << " " << d.noise_um << " " << said(d));
+        CHECK((d.verdict == diagnosis::Verdict::no_gap) == !formed);
+        REQUIRE(d.stated_um);
+        CHECK(*d.stated_um == Approx(3.0));
+        const auto alike = std::any_of(d.causes.begin(), d.causes.end(), [](const auto& c) {
+            return c.what.find("near places") != std::string::npos;
+        });
+        CHECK(alike == formed);
+    }
 }
 
 }  // namespace trunnion

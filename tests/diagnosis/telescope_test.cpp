@@ -14,15 +14,14 @@
 namespace trunnion {
 namespace {
 
-setup::Setup mount(const std::string& errors = "") {
+setup::Setup mount(const std::string& errors = "", const std::string& tool_mm = "[0, 0, 0]") {
     std::vector<std::string> notes;
     return setup::parse_setup(
         "[machine]\nname = \"mount\"\nchain = \"w b C A t\"\n"
         "[machine.axis.C]\ndirection = [0, 0, -1]\npoint_mm = [0, 0, 0]\n"
         "[machine.axis.A]\ndirection = [1, 0, 0]\npoint_mm = [0, 0, 0]\n"
-        "[[artefact]]\nname = \"Star\"\nkind = \"target\"\ntool_mm = [0, 0, 0]\n"
-        "[model]\nmodelled = []\n" +
-            errors,
+        "[[artefact]]\nname = \"Star\"\nkind = \"target\"\ntool_mm = " +
+            tool_mm + "\n[model]\nmodelled = []\n" + errors,
         "s.toml", notes);
 }
 
@@ -106,6 +105,48 @@ TEST_CASE("a telescope of unknown noise and no error has no gap", "[diagnosis]")
         for (const diagnosis::Cause& c : d.causes) CHECK(c.probability.value() <= 0.5);
     }
     CHECK(silent >= 3);
+}
+
+// Stars tell the line of sight, not the axis: what goes with the elevation may be the tube or the
+// air as well as the encoder.
+TEST_CASE("a line of sight that bends is a rival of the axis that carries it", "[diagnosis]") {
+    for (const bool of_axis : {false, true}) {
+        records::ReadingTable table = read_by(mount(), 80, 3);
+        for (records::Reading& row : table.rows) {
+            row.angular = true;
+            if (row.test != "A") continue;
+            const double a = row.commanded[Axis::A];
+            *row.value_mm += of_axis ? 2e-3 * std::cos(3.0 * a + 0.4)
+                                     : 3e-3 / std::tan(a) * 0.3 + 2e-3 * std::cos(a);
+        }
+        const diagnosis::Diagnosis d = diagnosis::diagnose(mount(), table);
+        INFO(of_axis << " " << said(d));
+        const auto at = std::find_if(d.causes.begin(), d.causes.end(),
+                                     [](const auto& c) { return c.effect == "A.positioning"; });
+        REQUIRE(at != d.causes.end());
+        const auto rival = [&](const char* name) {
+            return std::count(at->rivals.begin(), at->rivals.end(), name) > 0;
+        };
+        CHECK(rival("air.refraction") == !of_axis);
+        CHECK((at->probability <= 0.5) == !of_axis);
+        if (!of_axis) CHECK(rival("chain.flexure"));
+        CHECK((at->what.find("refraction") != std::string::npos) == !of_axis);
+    }
+}
+
+// A mirror on an arm, read by an autocollimator: no air bends what it shows.
+TEST_CASE("an arm that no star is seen by has no refraction", "[diagnosis]") {
+    const setup::Setup arm = mount("", "[0, 0, -100]");
+    records::ReadingTable table = read_by(arm, 80, 3);
+    for (records::Reading& row : table.rows) {
+        row.angular = true;
+        if (row.test == "A") *row.value_mm += 2e-3 * std::cos(row.commanded[Axis::A]);
+    }
+    const diagnosis::Diagnosis d = diagnosis::diagnose(arm, table);
+    INFO(said(d));
+    CHECK(d.verdict != diagnosis::Verdict::no_gap);
+    for (const diagnosis::Cause& cause : d.causes)
+        CHECK(std::count(cause.rivals.begin(), cause.rivals.end(), "air.refraction") == 0);
 }
 
 // A driver of time follows what is wrong at the ends of a run: the readings are set aside all the

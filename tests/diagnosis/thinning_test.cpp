@@ -66,6 +66,41 @@ TEST_CASE("many places beside a stream share the room", "[diagnosis]") {
     CHECK(count[records::Device::ballbar] < 3100);
 }
 
+// Rows here and there are at unequal distances: their own differences are neither the speed nor the
+// reversal point, and a peak behind a reversal would be somewhere else.
+TEST_CASE("chosen rows of a ballbar have speeds and reversals of the whole pass", "[diagnosis]") {
+    const setup::Setup setup = campaign::bc_setup();
+    records::ReadingTable table = campaign::empty_table(setup);
+    campaign::add_ballbar(table, setup, 1500);
+    for (records::Reading& row : table.rows)
+        if (row.device != records::Device::none) row.value_mm = 0.0;
+    TimeConstants constants{};
+    constants[index_of(Axis::X)] = 0.02;
+    const auto all = records::samples_of(table, constants);
+    std::map<double, std::size_t> at;
+    for (std::size_t i = 0; i < table.rows.size(); ++i) at[table.rows[i].time_s] = i;
+    const auto once = diagnosis::thinned(table, 4000, constants);
+    REQUIRE(once);
+    const auto twice = diagnosis::thinned(*once, 2000, constants);
+    REQUIRE(twice);
+    for (const records::ReadingTable* fewer : {&*once, &*twice}) {
+        const auto kept = records::samples_of(*fewer, constants);
+        for (std::size_t i = 0; i < kept.size(); ++i) {
+            const AxisSample& whole = all[at[fewer->rows[i].time_s]];
+            REQUIRE(kept[i].since_reversal == whole.since_reversal);
+            REQUIRE(kept[i].run_up_unknown == whole.run_up_unknown);
+            REQUIRE(kept[i].travel == whole.travel);
+            REQUIRE(kept[i].path_mm == whole.path_mm);
+            for (const Axis axis : table.axes) {
+                REQUIRE(kept[i].velocity[axis] == whole.velocity[axis]);
+                REQUIRE(kept[i].acceleration[axis] == whole.acceleration[axis]);
+                REQUIRE(kept[i].jerk[axis] == whole.jerk[axis]);
+                REQUIRE(kept[i].smooth_velocity[axis] == whole.smooth_velocity[axis]);
+            }
+        }
+    }
+}
+
 // Each sphere is found at the same angles in two tests, one after the other: four poses.
 TEST_CASE("the readings of a pose are kept together or left out together", "[diagnosis]") {
     const setup::Setup setup = campaign::bc_setup();
@@ -129,6 +164,7 @@ TEST_CASE("rows of a servo log keep the speed of the whole log", "[diagnosis]") 
         const AxisSample& whole = all[static_cast<std::size_t>(fewer->rows[i].index)];
         CHECK(kept[i].velocity[Axis::X] == whole.velocity[Axis::X]);
         CHECK(kept[i].acceleration[Axis::X] == whole.acceleration[Axis::X]);
+        CHECK(kept[i].since_reversal[0] == whole.since_reversal[0]);
         CHECK(kept[i].travel[0] == whole.travel[0]);
     }
 }

@@ -83,6 +83,40 @@ TEST_CASE("two tables with the two directions of an axis are one test", "[import
               "the two directions of one test"));
 }
 
+TEST_CASE("columns of runs stand in the order of measurement where their numbers rise",
+          "[imports][ways]") {
+    // Down, up, down: the positions of the first row of each pass tell it.
+    const auto passes = [](const std::string& names) {
+        std::vector<int> ways;
+        double before = 0.0;
+        const Case c{
+            iso, "target [mm]," + names + "\n0,1,2,3\n100,1,2,3\n200,1,2,3\n", {"axis=X"}, ""};
+        for (const records::Reading& row : import_bench::rows(import_bench::setup(), c).rows) {
+            if (row.device == records::Device::none)
+                ways.push_back(0);
+            else if (ways.back() == 0)
+                ways.back() = row.commanded[Axis::X] > before ? 1 : -1;
+            before = row.commanded[Axis::X];
+        }
+        return ways;
+    };
+    CHECK(passes("1- [um],1+ [um],2- [um]") == std::vector{-1, 1, -1});
+    CHECK(passes("1+ [um],1- [um],2+ [um]") == std::vector{1, -1, 1});
+    CHECK(passes("1+ [um],2+ [um],1- [um]") == std::vector{1, -1, 1});
+}
+
+// A decay length must not come from a way that nobody drove.
+TEST_CASE("an invented approach is no longer than a step", "[imports][ways]") {
+    for (const auto& [step, way] : {std::pair{0.01, 0.01}, std::pair{25.0, 1.0}}) {
+        std::string text = "target [mm],1+ [um],1- [um]\n";
+        for (int k = 0; k < 5; ++k) text += std::to_string(step * k) + ",1,2\n";
+        const auto all =
+            import_bench::rows(import_bench::setup(), {iso, text, {"axis=X"}, ""}).rows;
+        CHECK(all[0].device == records::Device::none);
+        CHECK(all[1].commanded[Axis::X] - all[0].commanded[Axis::X] == Approx(way));
+    }
+}
+
 TEST_CASE("the two directions in two files keep two zeros, with a note", "[imports][ways]") {
     const setup::Setup setup = import_bench::setup();
     const std::vector<imports::ImportFile> files{{"a.txt", "target [mm],1+ [um]\n0,0\n100,1\n"},

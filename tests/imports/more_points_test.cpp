@@ -79,6 +79,42 @@ TEST_CASE("a bed mesh that lost a number is refused", "[imports][more]") {
     refuses(setup, changed("min_x = 10.0", "min = 10"), "this mesh has no number min_x", 5);
 }
 
+TEST_CASE("coordinates one a line belong to the point of their name", "[imports][more]") {
+    const setup::Setup setup = import_bench::setup();
+    const std::string head = "name,axis,nominal,actual\n";
+    const Case together{points,
+                        head +
+                            "P1,X,10,10.001\nP1,Y,20,20.002\nP1,Z,30,30.003\n"
+                            "P2,X,40,40.004\nP2,Y,50,50.005\nP2,Z,60,60.006\n",
+                        {"unit=mm"},
+                        ""};
+    const Case sorted{points,
+                      head +
+                          "P1,X,10,10.001\nP2,X,40,40.004\nP1,Y,20,20.002\n"
+                          "P2,Y,50,50.005\nP1,Z,30,30.003\nP2,Z,60,60.006\n",
+                      {"unit=mm"},
+                      ""};
+    const auto expected = read_rows(setup, together), found = read_rows(setup, sorted);
+    REQUIRE(found.size() == 6);
+    for (std::size_t k = 0; k < 6; ++k) {
+        CHECK(*found[k].value_mm == Approx(*expected[k].value_mm));
+        CHECK(found[k].commanded == expected[k].commanded);
+    }
+    // Without names nobody tells which lines are one point.
+    refuses(setup,
+            {points,
+             "axis,nominal,actual\nX,10,10.001\nX,40,40.004\nY,20,20.002\nY,50,50.005\n",
+             {"unit=mm"},
+             ""},
+            "which are one point?", 3);
+    CHECK(read_rows(setup, {points,
+                            "axis,nominal,actual\nX,10,10.001\nY,20,20.002\nX,40,40.004\n"
+                            "Y,50,50.005\n",
+                            {"unit=mm"},
+                            ""})
+              .size() == 4);
+}
+
 TEST_CASE("uncertainties of rows", "[imports][more]") {
     const setup::Setup setup = import_bench::setup();
     for (const char* name : {"sigma", "sd", "std", "uncertainty"}) {

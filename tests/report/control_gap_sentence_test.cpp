@@ -32,4 +32,19 @@ TEST_CASE("what no cause explains is not told as a cause", "[report]") {
                    !Catch::Contains("G54"));
 }
 
+TEST_CASE("the declared number of a store has the digits of the found one", "[report]") {
+    choices::FittedNumber number;
+    number.name = "G54.X";
+    number.unit = "mm";
+    number.from = 10.05;
+    number.to = 10.0;
+    number.sigma = 0.000033;
+    CHECK(report::number_words(number) == "G54.X from 10.05 to 10.000000 ± 0.000033 mm");
+    number.from = 10.004;
+    number.sigma = 0.0012;
+    CHECK(report::number_words(number) == "G54.X from 10.004 to 10.0000 ± 0.0012 mm");
+    number.from = 0.0;
+    CHECK(report::number_words(number) == "G54.X from 0 to 10.0000 ± 0.0012 mm");
+}
+
 }  // namespace trunnion
