@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace trunnion::effects {
 namespace {
@@ -50,8 +51,9 @@ std::string parameter_text(const Effect& effect) {
     for (const EffectParameter& p : effect.parameters) {
         if (p.name == last) continue;
         last = p.name;
-        text += fmt::format("{}`{}` [{}] {:.3g}{}", text.empty() ? "" : ", ", p.name, p.unit,
-                            p.typical, p.is_key() ? " (searched)" : "");
+        text += fmt::format("{}`{}` [{}] {:.3g}{}{}", text.empty() ? "" : ", ", p.name, p.unit,
+                            p.typical, p.is_key() ? " (searched)" : "",
+                            std::isfinite(p.most) ? fmt::format(" (at most {:.3g})", p.most) : "");
     }
     return text;
 }
@@ -120,8 +122,9 @@ Catalogue make_catalogue(const setup::Setup& setup, const DataExtent& extent) {
     }
     append_axis_effects(list, chain);
     if (basic) append_squareness(list, chain);
-    list.push_back(servo_mismatch(chain, extent.devices.count(records::Device::axis) > 0));
-    list.push_back(servo_contour(chain));
+    const bool logged = extent.devices.count(records::Device::axis) > 0;
+    list.push_back(servo_mismatch(chain, logged));
+    list.push_back(servo_contour(chain, logged));
     list.push_back(thermal_drift(extent, chain));
     list.push_back(thermal_expansion(chain));
     if (const kinematics::AxisGeometry* tilting = tilting_axis(chain))

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "effects/effect_kind.h"
@@ -34,8 +36,16 @@ struct EffectParameter {
     int order = 0;                 ///< of a harmonic of a turn
     bool is_part = false;          ///< a fraction of a whole: from 0 to 1
     bool is_positive = false;      ///< below zero there is none: nothing hangs upwards
+    double most = std::numeric_limits<double>::infinity();  ///< size that no machine reaches
+                                                            ///< (assumed), in its unit
     bool is_key() const { return !grid.empty(); }
+    EffectParameter up_to(double size) &&;  ///< the same with this `most`
 };
+
+inline EffectParameter EffectParameter::up_to(double size) && {
+    most = size;
+    return std::move(*this);
+}
 
 /// Adds the effect at one reading to `out` (units and frames: kinematics::Perturbation; sign:
 /// actual - nominal). `value` in the order of `parameters`, in their units.

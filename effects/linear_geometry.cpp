@@ -10,6 +10,9 @@
 namespace trunnion::effects {
 namespace {
 
+/// No axis is off by more (assumed): beyond, it is another unit or another part.
+constexpr double most_scale_ppm = 1e5, most_squareness_rad = 0.2;
+
 /// Sum over n of value[n] (q / reach)^(first + n).
 double polynomial(double q, int first, std::span<const double> value) {
     double sum = 0.0, power = first == 1 ? q / reach_mm : q * q / (reach_mm * reach_mm);
@@ -28,7 +31,7 @@ Effect linear_scale(const kinematics::AxisGeometry& axis) {
             "ballscrew lead or scale error, warm screw, wrong pitch compensation",
             "measure with laser or step gauge and correct the pitch compensation",
             "position + scale_ppm 1e-6 q + bow2_mm (q/200)^2 + bow3_mm (q/200)^3",
-            {{"scale_ppm", "ppm", 20.0, -1, {}, true},
+            {EffectParameter{"scale_ppm", "ppm", 20.0}.up_to(most_scale_ppm),
              {"bow2_mm", "mm", 1e-3, -1, {}, true, false},
              {"bow3_mm", "mm", 0.7e-3, -1, {}, true, false}},
             [k = axis.axis](const AxisSample& sample, const emulator::Contact&,
@@ -107,7 +110,7 @@ Effect squareness(const std::string& plane, const kinematics::AxisGeometry& movi
             "machine not levelled, column or saddle misaligned, a crash",
             "level and realign, or correct it in the control's squareness compensation",
             fmt::format("{} tilted by angle_rad about {}", moving.name, "XYZ"[about]),
-            {{"angle_rad", "rad", 40e-6, -1, {}, true}},
+            {EffectParameter{"angle_rad", "rad", 40e-6}.up_to(most_squareness_rad)},
             [k = moving.axis, stray](const AxisSample& sample, const emulator::Contact&,
                                      std::span<const double> value, kinematics::Perturbation& out) {
                 out.motion[index_of(k)].shift_mm += value[0] * sample.position[k] * stray;

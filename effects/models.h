@@ -41,7 +41,7 @@ Effect squareness(const std::string& plane, const kinematics::AxisGeometry& movi
 /// `logged`: readings of a servo log see the whole lag of an axis, others what it has more than the
 /// other axes.
 Effect servo_mismatch(const kinematics::Chain& chain, bool logged);
-Effect servo_contour(const kinematics::Chain& chain);
+Effect servo_contour(const kinematics::Chain& chain, bool logged);
 /// Where a rotary axis carries the tool, the structure drifts in M besides the tip in S.
 Effect thermal_drift(const DataExtent& extent, const kinematics::Chain& chain);
 Effect thermal_expansion(const kinematics::Chain& chain);

@@ -5,6 +5,8 @@
 // derivatives are those of the motion behind low-passes (records/smoothed_motion.h): the orders
 // stay what they are, and the response is that of a loop at any speed. Without it they are a
 // series, true while the motion changes little within the delay.
+#include <cmath>
+
 #include "effects/models.h"
 
 namespace trunnion::effects {
@@ -13,6 +15,18 @@ namespace {
 /// A position loop of 60 /s (1 m/min at an error of 0.28 mm) lags by 17 ms, one with feed-forward
 /// by a tenth of it or less; that axes differ by a quarter of a millisecond is usual (assumed).
 constexpr double usual_lag_s = 10e-3, usual_mismatch_s = 0.25e-3;
+
+/// A loop that cuts does not lag by more (assumed); in a log of positions any drive may. At one
+/// feed an even order is a scale: without a limit the two cancel each other at any size, and what
+/// they leave at the ends of a pass explains rows that the machine read at rest.
+constexpr double most_lag_s = 0.1;
+
+/// Of the lag of this order, in s to its power.
+EffectParameter lag(const char* unit_suffix, const char* unit, double typical, int order,
+                    bool logged) {
+    EffectParameter p{unit_suffix, unit, typical};
+    return logged ? p : std::move(p).up_to(std::pow(most_lag_s, order));
+}
 
 /// One of each axis, alike but for the name.
 void add_parameters(Effect& effect, const kinematics::Chain& chain, const char* before,
@@ -50,8 +64,9 @@ Effect servo_mismatch(const kinematics::Chain& chain, bool logged) {
         {},
         {},
         SeenBy::any_encoder};
-    add_parameters(effect, chain, "tau_", {"_s", "s", logged ? usual_lag_s : usual_mismatch_s});
-    add_parameters(effect, chain, "lag3_", {"_s3", "s^3", 1.0e-6});
+    add_parameters(effect, chain, "tau_",
+                   lag("_s", "s", logged ? usual_lag_s : usual_mismatch_s, 1, logged));
+    add_parameters(effect, chain, "lag3_", lag("_s3", "s^3", 1.0e-6, 3, logged));
     effect.add = [axes = axes_of(chain)](const AxisSample& sample, const emulator::Contact&,
                                          std::span<const double> value,
                                          kinematics::Perturbation& out) {
@@ -65,7 +80,7 @@ Effect servo_mismatch(const kinematics::Chain& chain, bool logged) {
     return effect;
 }
 
-Effect servo_contour(const kinematics::Chain& chain) {
+Effect servo_contour(const kinematics::Chain& chain, bool logged) {
     Effect effect{
         identity_of(EffectKind::servo_contour),
         "Fast circles come out too small or too large, growing with the square of the feed",
@@ -76,7 +91,7 @@ Effect servo_contour(const kinematics::Chain& chain) {
         {},
         {},
         SeenBy::any_encoder};
-    EffectParameter second{"_s2", "s^2", 1.0e-4};
+    EffectParameter second = lag("_s2", "s^2", 1.0e-4, 2, logged);
     second.also_set_by = "lag2_s2";
     add_parameters(effect, chain, "lag2_", second);
     effect.add = [axes = axes_of(chain)](const AxisSample& sample, const emulator::Contact&,

@@ -18,7 +18,8 @@ bool are_kindred(const TableForm& a, const TableForm& b) {
 
 bool ColumnGroup::has_range() const {
     return std::any_of(parameters.begin(), parameters.end(), [&](std::size_t j) {
-        return effect->parameters[j].is_part || effect->parameters[j].is_positive;
+        const effects::EffectParameter& p = effect->parameters[j];
+        return p.is_part || p.is_positive || std::isfinite(p.most);
     });
 }
 

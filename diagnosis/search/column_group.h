@@ -68,7 +68,7 @@ struct ColumnGroup {
     std::string since;
     std::vector<std::string> before;
     bool is_change() const { return !before.empty(); }
-    bool has_range() const;  ///< parameters from 0 to 1, or never below 0
+    bool has_range() const;  ///< parameters from 0 to 1, never below 0, or with a limit
     Eigen::Index columns() const {
         return shape.size() > 0 ? shape.cols() : static_cast<Eigen::Index>(features.size());
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <string>
 
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/groups/ripples.h"
@@ -145,6 +146,43 @@ TEST_CASE("a period needs 8 places, two turns and no hole, of any kind of axis",
         with_gaps[3] += 1.7 * unit;  // one place beside it: no alias is exact any more
         CHECK(diagnosis::shows_period(with_gaps, 7.3 * unit));
     }
+}
+
+TEST_CASE("no lag of a second and scale of a percent stand for rows that were read at rest",
+          "[diagnosis][bounds]") {
+    const setup::Setup setup = campaign::bc_setup();
+    records::ReadingTable table = campaign::empty_table(setup);
+    campaign::add_ballbar(table, setup, 120);
+    std::erase_if(table.rows, [](const records::Reading& row) {  // circles, at one feed
+        return row.test.find("_1000") == std::string::npos;
+    });
+    const std::size_t count = table.rows.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        table.rows.push_back(table.rows[i]);
+        table.rows.back().time_s += 3600.0;
+        table.rows.back().test += " again";
+    }
+    const setup::Setup without = campaign::with_effect(
+        campaign::real_machine(setup), "X.straightness: EYX_p2_mm=0.001, EZX_p2_mm=-0.001");
+    const setup::Setup truth = campaign::with_effect(without, "Y.backlash: gap_mm=0.006");
+    records::ReadingTable read = campaign::measured(truth, table, 3);
+    const records::ReadingTable rest = campaign::measured(without, table, 3);
+    for (std::size_t i = 0; i < read.rows.size(); ++i) {
+        const bool ends = i == 0 || i + 1 == read.rows.size() ||
+                          read.rows[i].test != read.rows[i - 1].test ||
+                          read.rows[i].test != read.rows[i + 1].test;
+        if (ends) read.rows[i].value_mm = rest.rows[i].value_mm;
+    }
+    const diagnosis::Diagnosis d = diagnosed(setup, read);
+    INFO(said(d));
+    REQUIRE(!d.causes.empty());
+    CHECK(d.causes.front().effect == "Y.backlash");
+    CHECK(d.causes.front().probability > 0.9);
+    for (const diagnosis::Cause& cause : d.causes)
+        for (const identification::FitParameter& p : cause.parameters) {
+            if (p.unit == "ppm") CHECK(std::abs(p.value) < 1000.0);
+            if (p.unit == "s^2") CHECK(std::abs(p.value) < 0.0101);
+        }
 }
 
 TEST_CASE("a rotary axis that stood in few places gets no period, on a grid all that fit",

@@ -143,7 +143,7 @@ TEST_CASE("a variable in a position word is rounded where the setup says so, dig
         const auto v = run_text(again,
                                 "G21G90\n#1=200./7.\nG0X#1Y-#1Z[#1]C#1\n#101=#5021\n#102=#5022\n"
                                 "#103=#5023\n#104=#5025\nX12.34567\n#105=#5021\n"
-                                "G91X[1./3.]\nX[1./3.]\n#106=#5021\nG90G20X[2./7.]C[50./7.]\n"
+                                "G91X[1./3.]\nX[1./3.]\n#106=#5021\nG90G20\nX[2./7.]C[50./7.]\n"
                                 "#107=#5021\n#108=#5025\nM30\n")
                            .variables;
         CHECK(v.at(101) == Approx(to(200.0 / 7, c.mm)).margin(1e-9));
