@@ -72,11 +72,12 @@ bool same_noise(const NoiseModel& a, const NoiseModel& b) {
 }
 
 /// A refusal says what is wrong with the table, if that is simple.
-Prepared prepared_or_told(const setup::Setup& setup, const records::ReadingTable& table) {
+Prepared prepared_or_told(const setup::Setup& setup, const records::ReadingTable& table,
+                          const GoOn& go_on) {
     try {
         return prepare(setup, table);
     } catch (const InputError& error) {
-        const auto mistaken = mistaken_table(setup, table);
+        const auto mistaken = mistaken_table(setup, table, go_on);
         if (!mistaken) throw;
         throw InputError(error.message + ". " + mistaken->words, error.where, error.line_text);
     }
@@ -179,8 +180,8 @@ bool corrected(Prepared& p, Searched& s, Round& round) {
 
 /// The report; causes explain nothing of a table that is mistaken.
 Diagnosis reported(const Outcome& f, DiagnosisOptions options) {
-    const auto mistaken =
-        mistaken_table(f.prepared, {f.design, f.model, std::exp(f.noise.prior.log_mean)}, f.used);
+    const auto mistaken = mistaken_table(
+        f.prepared, {f.design, f.model, std::exp(f.noise.prior.log_mean), options.go_on}, f.used);
     if (!mistaken) return report_of(f, options);
     Judgement judgement = f.judgement;
     if (mistaken->certain) {
@@ -223,7 +224,7 @@ Diagnosis answer_of(const setup::Setup& setup, const records::ReadingTable& tabl
     const auto watch = [&](const char* stage) {
         if (options.watch) options.watch(stage);
     };
-    Prepared p = prepared_or_told(setup, table);
+    Prepared p = prepared_or_told(setup, table, options.go_on);
     if (options.holdout) refuse_poor_holdout(p, *options.holdout);
     if (options.over_sessions) refuse_one_session(p);
     Round round = first_round(p, options.over_sessions);

@@ -95,15 +95,17 @@ struct BestSlip {
     double before = 0.0, left = 0.0;  ///< in sigma of the table as it is
 };
 
-/// The change that leaves least. `noise`: of the readings, in sigma.
+/// The change that leaves least. `noise`: of the readings, in sigma. Far from all readings a fit
+/// takes long: with the work ended, none.
 std::optional<BestSlip> best_slip(const setup::Setup& setup, const records::ReadingTable& all,
-                                  double noise) {
+                                  double noise, const GoOn& go_on) {
     const auto fewer = thinned(all, enough_readings);
     const records::ReadingTable& table = fewer ? *fewer : all;
     const auto before = left_by_set_up(setup, table, {}, {});
     if (!before || before->left < rules::mistaken_sigmas * noise) return std::nullopt;
     std::optional<BestSlip> best;
     for (TableSlip& slip : slips_of(table)) {
+        if (go_on && !go_on()) return std::nullopt;
         const auto left = left_by_set_up(setup, table, slip, before->sigma_mm);
         if (!left || left->left > rules::mistaken_left * before->left) continue;
         if (!best || left->left < best->left)
@@ -112,6 +114,16 @@ std::optional<BestSlip> best_slip(const setup::Setup& setup, const records::Read
     if (best) best->before /= noise;
     if (best) best->left /= noise;
     return best;
+}
+
+/// True for a table that is not refused: one that is put right half only helps nobody.
+bool is_of_this_machine(const setup::Setup& setup, const records::ReadingTable& table) {
+    try {
+        prepare(setup, table);
+        return true;
+    } catch (const InputError&) {
+        return false;
+    }
 }
 
 std::string sentence(const BestSlip& best) {
@@ -208,7 +220,7 @@ std::optional<MistakenTable> mistaken_table(const Prepared& p, const SearchResul
         std::all_of(sizes.begin(), sizes.end(), [](double size) { return size < rules::enormous; });
     const bool possible = usual && now.left < to_the_noise;
     if (possible && before < absurd) return std::nullopt;
-    const auto best = best_slip(p.replay.setup(), p.table, found.noise);
+    const auto best = best_slip(p.replay.setup(), p.table, found.noise, found.go_on);
     if (!best) return wrong_size(p, now.left);
     const auto right = explained_when_right(*best, p, found.noise);
     if (!right) return std::nullopt;
@@ -226,15 +238,15 @@ std::optional<MistakenTable> mistaken_table(const Prepared& p, const SearchResul
 }
 
 std::optional<MistakenTable> mistaken_table(const setup::Setup& setup,
-                                            const records::ReadingTable& table) {
+                                            const records::ReadingTable& table, const GoOn& go_on) {
     // A few readings that are refused for their number say nothing of their unit: in a larger one
     // any error is less.
     const auto count = std::count_if(table.rows.begin(), table.rows.end(), [](const auto& row) {
         return row.device != records::Device::none;
     });
     if (static_cast<std::size_t>(count) < least_readings) return std::nullopt;
-    const auto best = best_slip(setup, table, 1.0);
-    if (!best) return std::nullopt;
+    const auto best = best_slip(setup, table, 1.0, go_on);
+    if (!best || !is_of_this_machine(setup, undone(best->slip, table))) return std::nullopt;
     return MistakenTable{sentence(*best), true};
 }
 

@@ -2,6 +2,7 @@
 // (mistaken_table.cpp).
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -15,10 +16,14 @@ struct MistakenTable {
     bool certain = false;  ///< no machine explains the readings as well as this does
 };
 
+/// False: the work is to end.
+using GoOn = std::function<bool()>;
+
 struct SearchResult {
     Design& design;
     const Model& model;
     double noise = 1.0;  ///< expected of the readings, in sigma: not 1 where neighbours tell it
+    GoOn go_on = {};
 };
 
 /// The simple change of a table (two columns exchanged, a sign turned, mm for inches, ..) that
@@ -32,7 +37,7 @@ std::optional<MistakenTable> mistaken_table(const Prepared& prepared, const Sear
 
 /// The same for a table that is refused, because the set-up leaves residuals of no machine.
 std::optional<MistakenTable> mistaken_table(const setup::Setup& setup,
-                                            const records::ReadingTable& table);
+                                            const records::ReadingTable& table, const GoOn& go_on);
 
 /// No cause is sure beside a table that may be mistaken.
 void tell_mistaken(const MistakenTable& mistaken, Diagnosis& diagnosis);

@@ -12,9 +12,10 @@ namespace {
 
 constexpr std::size_t rough_count = 600, fine_count = 2400;  ///< maximum number of rows
 constexpr std::size_t finalists = 12;
-/// Minimum chi-squared between a ripple of typical size and its alias; below it they count as
-/// equal.
-constexpr double alias_square = 4.0;
+/// A ripple of typical size and its alias count as equal where they differ by less in chi-squared,
+/// and by less than this part of the ripple: one that the readings hardly see at its typical size
+/// may be larger than that.
+constexpr double alias_square = 4.0, alias_part = 0.2;
 
 /// A fixed selection of about `count` rows without the periodicity of poses and passes.
 std::vector<std::size_t> scattered_rows(std::size_t all, std::size_t count) {
@@ -104,8 +105,10 @@ std::vector<KeySearch::Setting> KeySearch::worked_out(const effects::Effect& eff
     std::vector<Setting> list;
     for (std::vector<double>& values : grid_of(effect)) {
         const Eigen::MatrixXd rough = columns(effect, values, rough_rows_, rough_weight_);
-        const bool alias = orders.cols() > 0 && first.beside(rough).squaredNorm() <= alias_square;
-        if (alias || rough.squaredNorm() < least_square) continue;
+        const double seen = rough.squaredNorm();
+        const bool alias = orders.cols() > 0 && first.beside(rough).squaredNorm() <=
+                                                    std::min(alias_square, alias_part * seen);
+        if (alias || seen < least_square) continue;
         Eigen::MatrixXd own = base_columns_.beside(rough);
         auto factor = information(own.transpose() * own);
         list.push_back({std::move(values), std::move(own), std::move(factor), {}});
