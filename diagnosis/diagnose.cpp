@@ -14,6 +14,7 @@
 #include "diagnosis/prepare/copies.h"
 #include "diagnosis/prepare/outliers.h"
 #include "diagnosis/prepare/spoiled_readings.h"
+#include "diagnosis/prepare/stop_means.h"
 #include "diagnosis/prepare/thinning.h"
 #include "diagnosis/prepare/unrepeated_readings.h"
 #include "diagnosis/round.h"
@@ -212,6 +213,14 @@ Diagnosis answer_of(const setup::Setup& setup, const records::ReadingTable& tabl
     if (const auto once = without_copies(table)) {
         Diagnosis d = answer_of(setup, *once, options);
         d.copies = table.rows.size() - once->rows.size();
+        return d;
+    }
+    if (const auto stops = means_of_stops(setup, table)) {
+        Diagnosis d = answer_of(setup, stops->table, options);
+        d.notes.push_back(
+            fmt::format("{} readings were taken while the axes stood; {} means stand for them: "
+                        "readings of one stop share what the machine does not repeat",
+                        stops->readings, stops->means));
         return d;
     }
     if (const auto fewer = thinned(table, most_readings, setup.time_constant_s)) {

@@ -1,0 +1,26 @@
+// Readings that an instrument takes several times while the axes stand (stop_means.cpp).
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "records/readings.h"
+#include "setup/setup.h"
+
+namespace trunnion::diagnosis {
+
+struct StopMeans {
+    records::ReadingTable table;
+    std::size_t readings = 0;  ///< that stand for the means
+    std::size_t means = 0;
+};
+
+/// The table with one reading for each target of a laser, an angle sensor or an instrument that
+/// reads points, and each stop of the axes: the mean of those taken there. What the machine does
+/// not repeat is the same in all of them, so that their scatter is not its noise and each of them
+/// no proof of its own. Empty without such readings, where their noise is stated (then it is that
+/// of a reading), and where the axes stand for long: a watch of time.
+std::optional<StopMeans> means_of_stops(const setup::Setup& setup,
+                                        const records::ReadingTable& table);
+
+}  // namespace trunnion::diagnosis
