@@ -356,6 +356,10 @@ Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options) {
         return d;
     }
     d.unexplained_share = 1.0 - d.explained;
+    if (d.explained <= 0.0 && d.after_rms_um > d.rms_um) {  // zeros of tests take the causes back
+        d.after_rms_um = d.rms_um;
+        d.after_um = d.before_um;
+    }
     if (options.over_sessions) tell_sessions(f, claims, d);
     d.where = where_of(f.design, f.judgement.floor);
     add_wandering_zeros(f, d.where);

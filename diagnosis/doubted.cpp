@@ -42,6 +42,15 @@ bool is_claimed(const Outcome& f, std::size_t position, const std::vector<Claim>
     });
 }
 
+/// What all causes do of the gap; none where zeros of tests are a part of it.
+std::optional<double> told_share(const Outcome& f, const std::vector<Claim>& claims) {
+    const std::vector<bool>& large = f.judgement.large;
+    if (claims.empty() || std::find(large.begin(), large.end(), true) != large.end()) return {};
+    double sum = 0.0;
+    for (const Claim& claim : claims) sum += claim.share;
+    return sum;
+}
+
 }  // namespace
 
 std::optional<Judgement> doubted(const Outcome& f, const std::vector<Claim>& claims) {
@@ -65,7 +74,10 @@ std::optional<Judgement> doubted(const Outcome& f, const std::vector<Claim>& cla
             if (claim.position == k && claim.own >= rules::between_part)
                 judgement.between_places = false;
     }
-    if (judgement.interpolates == f.judgement.interpolates) return std::nullopt;
+    const auto told = told_share(f, claims);
+    const bool less = told && *told < rules::least_told * judgement.part;
+    if (less) judgement.part = judgement.beside_zeros = *told;
+    if (!less && judgement.interpolates == f.judgement.interpolates) return std::nullopt;
     return judgement;
 }
 

@@ -1,4 +1,5 @@
-// What is said of a cause only after all are weighed: that it holds at the measured places alone.
+// What is said of the causes only after all are weighed: that one holds at the measured places
+// alone, and that they do less than H says.
 #pragma once
 
 #include <optional>
@@ -13,7 +14,8 @@ namespace trunnion::diagnosis {
 /// - a ripple that the places do not resolve is the more likely one, or anything else than the
 ///   ripple that was found: both are the same at the places and differ between them;
 /// - a cause that is not claimed and many times the usual size (rules::enormous): the places hardly
-///   show it, or other causes take it back there.
+///   show it, or other causes take it back there;
+/// or with what the causes do of the gap, where that is less than half of H.
 std::optional<Judgement> doubted(const Outcome& found, const std::vector<Claim>& claims);
 
 }  // namespace trunnion::diagnosis

@@ -24,18 +24,6 @@ bool is_unstated_scatter(const Outcome& f, const Diagnosis& d) {
            f.model.members.empty();
 }
 
-constexpr const char* alike_words =
-    "Successive readings are off alike, as no noise is: something comes and goes with time that no "
-    "effect of the catalogue does";
-constexpr const char* near_words =
-    "Readings at near places are off alike, as no noise is: an error follows the position in a "
-    "shape that no effect of the catalogue has, or finer than places left out can confirm. More "
-    "places would tell";
-constexpr const char* scatter_words =
-    "More scatter than is usual of the device, without structure: no effect, position or time goes "
-    "with it. It may be noise, which nobody states here: give it in a column sigma_mm or in "
-    "[model] of the setup, or repeat readings, and it is known";
-
 /// True where what is left of successive readings of one test is correlated, as noise is not.
 bool is_alike_in_time(const Outcome& f) {
     double product = 0.0, square = 0.0, pairs = 0.0;
@@ -53,6 +41,29 @@ bool is_alike_in_time(const Outcome& f) {
     }
     return pairs > 2.0 && product * std::sqrt(pairs) > rules::alike * square;
 }
+
+/// True where no effect, position or time goes with a scatter beyond the noise that is stated.
+bool is_scatter_beyond_stated(const Outcome& f, const Diagnosis& d) {
+    return f.noise.model.source == NoiseSource::given && d.where.empty() &&
+           f.model.members.empty() && !is_alike_in_time(f);
+}
+
+constexpr const char* alike_words =
+    "Successive readings are off alike, as no noise is: something comes and goes with time that no "
+    "effect of the catalogue does";
+constexpr const char* near_words =
+    "Readings at near places are off alike, as no noise is: an error follows the position in a "
+    "shape that no effect of the catalogue has, or finer than places left out can confirm. More "
+    "places would tell";
+constexpr const char* scatter_words =
+    "More scatter than is usual of the device, without structure: no effect, position or time goes "
+    "with it. It may be noise, which nobody states here: give it in a column sigma_mm or in "
+    "[model] of the setup, or repeat readings, and it is known";
+
+constexpr const char* beyond_stated_words =
+    "The readings scatter more than the noise that is stated, without structure: no effect, "
+    "position "
+    "or time goes with it. The noise is larger than stated, or probe, target or clamping are loose";
 
 /// Probability that something is missing in the model. What left-out readings do not confirm may
 /// also be what the others leave uncertain: then the residuals are no larger than that, within the
@@ -115,6 +126,8 @@ Cause unknown_cause(const Outcome& f, const Diagnosis& d) {
         const bool follows_time = is_alike_in_time(f);
         cause.probability = follows_time ? rules::sure : 0.5;
         cause.what = follows_time ? alike_words : scatter_words;
+    } else if (is_scatter_beyond_stated(f, d) && places.empty()) {
+        cause.what = beyond_stated_words;
     } else if (places.empty() && cause.probability < 0.5)
         cause.what = "What left-out readings do not confirm, and the others leave open";
     else if (cause.rivals.empty())

@@ -16,9 +16,9 @@ bool endless(const kinematics::AxisGeometry& axis) {
 Effect rotary_zero(const kinematics::AxisGeometry& axis) {
     return {
         identity_of(axis, EffectKind::zero),
-        "The axis's zero is not where the table is level or aligned",
+        "The zero of the axis is not where its table is level or its head upright",
         "encoder replaced, reference mark moved",
-        "set the zero with a level or an indicator on the table: sphere readings cannot see it",
+        "set the zero: of a table with a level or an indicator, of a head with a test bar",
         "angle + offset_rad",
         {{"offset_rad", "rad", 50e-6, -1, {}, true}},
         [k = axis.axis](const AxisSample&, const emulator::Contact&, std::span<const double> value,
@@ -76,8 +76,8 @@ Effect rotary_backlash(const kinematics::AxisGeometry& axis) {
         "short)",
         "negative: play behind the motor (worm gear, preload, belt), a drive that lags; positive: "
         "compensation of the backlash set too large",
-        "readjust the preload, or enter the gap as backlash compensation (on Fanuc parameter "
-        "1851, assumed)",
+        "negative: readjust the preload, or add the gap to the backlash compensation (on Fanuc "
+        "parameter 1851, assumed); positive: take it off there",
         "angle + gap_rad / 2 * sign of travel",
         {{"gap_rad", "rad", 40e-6, -1, {}, true}},
         [k = axis.axis](const AxisSample& sample, const emulator::Contact&,

@@ -192,9 +192,9 @@ std::string cause_heading(const diagnosis::Diagnosis& d, const diagnosis::Cause&
 /// What the cause is, where it usually comes from, what to do, and what else it may be.
 std::string cause_words(const diagnosis::Diagnosis& d, const diagnosis::Cause& cause) {
     std::string text = cause_heading(d, cause) + "<p>" + escape_xml(cause.what) + ".";
-    if (!cause.usual_cause.empty())
+    if (!cause.usual_cause.empty() && !is_improbable(cause))
         text += " <b>Usual cause:</b> " + escape_xml(cause.usual_cause) + ".";
-    text += " <b>What to do:</b> " + escape_xml(cause.remedy) + ".";
+    if (!is_improbable(cause)) text += " <b>What to do:</b> " + escape_xml(cause.remedy) + ".";
     if (!cause.points.empty() && !cause.holds_between)
         text += " It holds at the measured places only.";
     text += "</p>\n";

@@ -70,7 +70,7 @@ std::string cause_text(const diagnosis::Diagnosis& d, const diagnosis::Cause& ca
     std::string text = fmt::format("\n{}  {} % of the gap, probability {}\n", cause_name(d, cause),
                                    percent(cause.share), probability_words(cause.probability));
     text += paragraph(cause.what + ".", 2);
-    if (!cause.usual_cause.empty())
+    if (!cause.usual_cause.empty() && !is_improbable(cause))
         text += paragraph("Usual cause: " + cause.usual_cause + ".", 2) +
                 paragraph("What to do: " + cause.remedy + ".", 2);
     text += parameters_text(cause.parameters);

@@ -221,9 +221,13 @@ bool is_only_spoiled(const diagnosis::Diagnosis& d) {
     return d.verdict == diagnosis::Verdict::unexplained && d.outliers > 0 && d.excess_um <= 0.0;
 }
 
+bool is_improbable(const diagnosis::Cause& cause) {
+    return cause.probability < improbable;
+}
+
 const char* rivals_words(const diagnosis::Cause& cause) {
-    return cause.probability < improbable ? "rather one of its rivals, or nothing"
-                                          : "cannot be told apart here from";
+    return is_improbable(cause) ? "rather one of its rivals, or nothing"
+                                : "cannot be told apart here from";
 }
 
 std::string upper_first(std::string text) {

@@ -28,6 +28,8 @@ bool is_sure_only_together(const diagnosis::Cause& cause);
 /// anything of the others.
 bool is_only_spoiled(const diagnosis::Diagnosis& diagnosis);
 
+/// A cause whose rivals are rather it: nothing is advised for it.
+bool is_improbable(const diagnosis::Cause& cause);
 /// How a cause stands to its rivals: "cannot be told apart here from", or what an improbable one
 /// is.
 const char* rivals_words(const diagnosis::Cause& cause);

@@ -38,6 +38,7 @@ constexpr double large_cycle = 3.0;  ///< ... of the cycles of a laser test: its
                                      ///< with the air and the frame, and are known well
 
 constexpr double explained = 0.8, partly = 0.5;  ///< of H
+constexpr double least_told = 0.5;  ///< of H: shares of all causes below it contradict it (assumed)
 constexpr double between_part = 0.2;   ///< maximum part of the gap carried by tables that do not
                                        ///< interpolate
 constexpr double between_least = 0.5;  ///< part that a table must predict at left-out positions

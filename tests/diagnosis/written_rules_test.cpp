@@ -133,7 +133,7 @@ TEST_CASE("what is many times the usual size is written only where it is claimed
             diagnosis::Claim claim;
             claim.name = "C.backlash";
             claim.probability = probability;
-            claim.own = 1.0;
+            claim.own = claim.share = 1.0;
             const auto less =
                 diagnosis::doubted({rows.prepared, design, setting, model, judgement, plain_noise,
                                     rows.used, rows.used, diagnosis::Challenged{}},
@@ -145,6 +145,32 @@ TEST_CASE("what is many times the usual size is written only where it is claimed
             CHECK_FALSE(writes(rows, design, model, *less));
             CHECK(writes(rows, design, model, judgement));
         }
+}
+
+TEST_CASE("causes that do little of a gap do not explain it", "[diagnosis][written]") {
+    Rows rows;
+    const Eigen::MatrixXd backlash = rows.noise(1);
+    diagnosis::Design design = rows.design(5.0 * backlash.col(0) + rows.noise(1).col(0));
+    const std::size_t cause =
+        add(design, of_kind(GroupKind::textbook, &rows.effect("C.backlash")), backlash);
+    const diagnosis::Model model = fitted(design, {cause});
+    const diagnosis::Judgement judgement = judged(rows, design, model);
+    const diagnosis::SearchSetting setting = diagnosis::search_setting(design, plain_noise.prior);
+    REQUIRE(judgement.part > 0.8);
+    const double limit = diagnosis::rules::least_told * judgement.part;
+    for (const double share : {0.0, 0.99 * limit, 1.01 * limit, 1.0}) {
+        diagnosis::Claim claim;
+        claim.name = "C.backlash";
+        claim.probability = 0.9;
+        claim.share = share;
+        const auto less =
+            diagnosis::doubted({rows.prepared, design, setting, model, judgement, plain_noise,
+                                rows.used, rows.used, diagnosis::Challenged{}},
+                               {claim});
+        INFO(share);
+        REQUIRE(less.has_value() == (share < limit));
+        if (less) CHECK(less->part == share);
+    }
 }
 
 // Without the table that is not written, a play takes its place, because it looks like it a little.

@@ -10,6 +10,7 @@ namespace {
 diagnosis::Cause waved(bool travel) {
     diagnosis::Cause cause;
     cause.effect = "X.positioning";
+    cause.probability = 0.5;
     for (int k = 0; k <= 20; ++k) {
         const double at = -200.0 + 20.0 * k;
         const double error_mm = 0.006 * std::sin(at / 40.0);
@@ -40,6 +41,14 @@ TEST_CASE("pitch error data take the error away within half a unit at every plac
     }
     CHECK_FALSE(report::pitch_error_data(waved(false)));
     CHECK_FALSE(report::pitch_error_data({}));
+}
+
+TEST_CASE("nothing is typed into a control for a cause that is not claimed", "[report]") {
+    diagnosis::Cause cause = waved(true);
+    cause.probability = 0.49;
+    CHECK_FALSE(report::pitch_error_data(cause));
+    CHECK(report::error_table(cause).find("no pitch error data: the cause is not claimed") !=
+          std::string::npos);
 }
 
 TEST_CASE("a table of the measured places only is no data of a compensation", "[report]") {
