@@ -53,15 +53,42 @@ void widen(Deviation& worst, const std::vector<PathPoint>& points,
     }
 }
 
+/// The stretch longer where its ends are not those of the other path's: one block there may be many
+/// here, of which only some differ. Unchanged where the path does not come by within `most` blocks.
+Stretch with_ends(SegmentWindow& path, Stretch s, const Vector3& begin, const Vector3& end,
+                  double tolerance_mm) {
+    constexpr std::uint64_t most = 1024;
+    const auto is_at = [&](std::uint64_t k, const Vector3& place) {
+        return (path[k].end().position_mm - place).norm() <= tolerance_mm;
+    };
+    Stretch longer = s;
+    for (std::uint64_t k = s.first; k-- > 0 && s.first - k <= most;)
+        if (is_at(k, begin)) {
+            longer.first = k + 1;
+            break;
+        }
+    for (std::uint64_t k = s.last; k <= path.size() && k - s.last < most; ++k)
+        if (is_at(k - 1, end)) {
+            longer.last = k;
+            break;
+        }
+    return longer;
+}
+
 }  // namespace
 
 Deviation deviation_between(SegmentWindow& a_path, Stretch a, SegmentWindow& b_path, Stretch b,
                             const Tolerances& tolerances) {
     const auto a_points = chord_points(a_path, a, tolerances);
     const auto b_points = chord_points(b_path, b, tolerances);
+    const double tolerance_mm = tolerances.position_mm;
+    const Stretch long_a = with_ends(a_path, a, b_points.front().position_mm,
+                                     b_points.back().position_mm, tolerance_mm),
+                  long_b = with_ends(b_path, b, a_points.front().position_mm,
+                                     a_points.back().position_mm, tolerance_mm);
     Deviation worst;
-    widen(worst, a_points, b_points);
-    widen(worst, b_points, a_points);
+    widen(worst, a_points, chord_points(b_path, long_b, tolerances));
+    widen(worst, b_points, chord_points(a_path, long_a, tolerances));
     return worst;
 }
 

@@ -13,7 +13,8 @@ struct Deviation {
 };
 
 /// Hausdorff distance of the two chord lines (each point of one from the other line); long
-/// stretches are thinned out to some hundred points. An empty stretch is its start point.
+/// stretches are thinned out to some hundred points. An empty stretch is its start point. Where one
+/// begins or ends within a block of the other, the blocks beside it count as a part of its line.
 Deviation deviation_between(SegmentWindow& a_path, Stretch a, SegmentWindow& b_path, Stretch b,
                             const Tolerances& tolerances);
 
