@@ -2,7 +2,7 @@
 # own. tests/layering.cmake reads this list.
 set(TRUNNION_CONTROLLER_ORDER
   # what is configured, what can go wrong
-  modal_groups g_codes missing_codes builder_profile clamp hurco_choices control_alarms alarms control_config run_result
+  modal_groups g_codes missing_codes builder_profile variable_rounding clamp hurco_choices control_alarms alarms control_config run_result
   code_calls
   # the words of a block, what is in force
   sorted_words settings hurco_codes modal cautions run_record surface_speed word_sorting

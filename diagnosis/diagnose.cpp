@@ -205,9 +205,14 @@ Round first_round(const Prepared& p, bool over_sessions) {
     return round;
 }
 
-/// The answer for a setup that has the time constants of its drives.
 Diagnosis answer_of(const setup::Setup& setup, const records::ReadingTable& table,
-                    const DiagnosisOptions& options) {
+                    const DiagnosisOptions& options);
+
+/// The answer for the table with its files as sessions, without copies, with one reading for each
+/// stop or with fewer rows; none where it stays as it is.
+std::optional<Diagnosis> answer_for_other(const setup::Setup& setup,
+                                          const records::ReadingTable& table,
+                                          const DiagnosisOptions& options) {
     if (options.over_sessions)
         if (const auto named = files_as_sessions(table)) return answer_of(setup, *named, options);
     if (const auto once = without_copies(table)) {
@@ -230,6 +235,13 @@ Diagnosis answer_of(const setup::Setup& setup, const records::ReadingTable& tabl
             [](const records::Reading& row) { return row.device != records::Device::none; }));
         return d;
     }
+    return std::nullopt;
+}
+
+/// The answer for a setup that has the time constants of its drives.
+Diagnosis answer_of(const setup::Setup& setup, const records::ReadingTable& table,
+                    const DiagnosisOptions& options) {
+    if (auto other = answer_for_other(setup, table, options)) return std::move(*other);
     const auto watch = [&](const char* stage) {
         if (options.watch) options.watch(stage);
     };

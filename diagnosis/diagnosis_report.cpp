@@ -31,8 +31,7 @@ namespace {
 /// Minimum half width of an interval of the shrink: the draws are linearised, and the comparison
 /// uses another fit of the set-up.
 constexpr double least_half_width = 0.01;
-constexpr double noise_is_off = 0.1;   ///< relative: larger deviations mean that the stated noise
-                                       ///< is wrong
+constexpr double noise_is_off = 0.1;   ///< relative: beyond, the stated noise is wrong
 constexpr double least_weight = 1e-4;  ///< of an alternative model
 constexpr std::size_t most_truths = 24;
 
@@ -305,6 +304,13 @@ double weighed_variance(const Outcome& f) {
     return unstated ? std::max(f.judgement.floor, left) : f.judgement.floor;
 }
 
+/// Causes that the zeros of tests take back leave no more than there was.
+void take_back_worse(Diagnosis& d) {
+    if (d.explained > 0.0 || d.after_rms_um <= d.rms_um) return;
+    d.after_rms_um = d.rms_um;
+    d.after_um = d.before_um;
+}
+
 /// What is written, and what is claimed beside that.
 struct Told {
     Written written;
@@ -356,10 +362,7 @@ Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options) {
         return d;
     }
     d.unexplained_share = 1.0 - d.explained;
-    if (d.explained <= 0.0 && d.after_rms_um > d.rms_um) {  // zeros of tests take the causes back
-        d.after_rms_um = d.rms_um;
-        d.after_um = d.before_um;
-    }
+    take_back_worse(d);
     if (options.over_sessions) tell_sessions(f, claims, d);
     d.where = where_of(f.design, f.judgement.floor);
     add_wandering_zeros(f, d.where);

@@ -53,27 +53,45 @@ void widen(Deviation& worst, const std::vector<PathPoint>& points,
     }
 }
 
-/// The stretch longer where its ends are not those of the other path's: one block there may be many
-/// here, of which only some differ. Unchanged where the path does not come by within `most` blocks.
-Stretch with_ends(SegmentWindow& path, Stretch s, const Vector3& begin, const Vector3& end,
-                  double tolerance_mm) {
-    constexpr std::uint64_t most = 1024;
-    const auto is_at = [&](std::uint64_t k, const Vector3& place) {
-        return (path[k].end().position_mm - place).norm() <= tolerance_mm;
-    };
-    Stretch longer = s;
-    for (std::uint64_t k = s.first; k-- > 0 && s.first - k <= most;)
-        if (is_at(k, begin)) {
-            longer.first = k + 1;
-            break;
+/// The stretch of a path longer by blocks that lie on the line of the other path, up to the ends of
+/// that: one block there may be many here, of which only some differ. Unchanged where it is not so.
+class LongerStretch {
+  public:
+    LongerStretch(SegmentWindow& path, const std::vector<PathPoint>& other, double tolerance_mm)
+        : path_(path), other_(other), near_mm_(2.0 * tolerance_mm) {}
+
+    Stretch of(Stretch s) {
+        Stretch longer = s;
+        for (std::uint64_t k = s.first - 1; s.first - k <= most; --k) {
+            if (is_at(k, other_.front())) {
+                longer.first = k + 1;
+                break;
+            }
+            if (k == 0 || (k + 1 < s.first && !is_on(k))) break;
         }
-    for (std::uint64_t k = s.last; k <= path.size() && k - s.last < most; ++k)
-        if (is_at(k - 1, end)) {
-            longer.last = k;
-            break;
+        for (std::uint64_t k = s.last - 1; k < path_.size() && k + 1 - s.last < most; ++k) {
+            if (is_at(k, other_.back())) {
+                longer.last = k + 1;
+                break;
+            }
+            if (k >= s.last && !is_on(k)) break;
         }
-    return longer;
-}
+        return longer;
+    }
+
+  private:
+    static constexpr std::uint64_t most = 1024;
+    bool is_at(std::uint64_t k, const PathPoint& place) {
+        return (path_[k].end().position_mm - place.position_mm).norm() <= near_mm_;
+    }
+    bool is_on(std::uint64_t k) {
+        return from_line(path_[k].end(), other_).position_mm <= near_mm_;
+    }
+
+    SegmentWindow& path_;
+    const std::vector<PathPoint>& other_;
+    double near_mm_;
+};
 
 }  // namespace
 
@@ -81,11 +99,11 @@ Deviation deviation_between(SegmentWindow& a_path, Stretch a, SegmentWindow& b_p
                             const Tolerances& tolerances) {
     const auto a_points = chord_points(a_path, a, tolerances);
     const auto b_points = chord_points(b_path, b, tolerances);
-    const double tolerance_mm = tolerances.position_mm;
-    const Stretch long_a = with_ends(a_path, a, b_points.front().position_mm,
-                                     b_points.back().position_mm, tolerance_mm),
-                  long_b = with_ends(b_path, b, a_points.front().position_mm,
-                                     a_points.back().position_mm, tolerance_mm);
+    Stretch long_a = a, long_b = b;
+    if (a.first < a.last && b.first < b.last) {
+        long_a = LongerStretch(a_path, b_points, tolerances.position_mm).of(a);
+        long_b = LongerStretch(b_path, a_points, tolerances.position_mm).of(b);
+    }
     Deviation worst;
     widen(worst, a_points, chord_points(b_path, long_b, tolerances));
     widen(worst, b_points, chord_points(a_path, long_a, tolerances));

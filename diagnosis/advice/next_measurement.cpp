@@ -296,10 +296,8 @@ NextMeasurement best_for(const AmbiguousPair& pair, const std::vector<Worked>& l
         const double more = prospect.lost - before, gain = 0.5 * more;
         if (gain < 3.0 || !shows_more(w, more, before, present)) continue;
         // Degree of separation for each minute; beyond full separation there is no further benefit.
-        constexpr double least_probability = 0.01;  // less is no hour of a shop worth (assumed)
         const double probability = pair.believed * probability_to_drop(prospect);
         const double settled = std::min(1.0, probability / rules::settles);
-        if (probability < least_probability) continue;
         if (settled * settled / w.measurement.minutes <= rate) continue;
         rate = settled * settled / w.measurement.minutes;
         best.log_bayes_factor = gain;
