@@ -22,6 +22,7 @@
 #include "diagnosis/search/solution.h"
 #include "diagnosis/store_causes.h"
 #include "effects/settings.h"
+#include "identification/row_noise.h"
 #include "identification/time_constants.h"
 
 namespace trunnion::diagnosis {
@@ -220,7 +221,10 @@ std::optional<Diagnosis> answer_for_other(const setup::Setup& setup,
         d.copies = table.rows.size() - once->rows.size();
         return d;
     }
-    if (const auto stops = means_of_stops(setup, table)) {
+    const auto stated = [&](const records::Reading& row) {
+        return identification::states_noise(setup, row);
+    };
+    if (const auto stops = means_of_stops(table, stated)) {
         Diagnosis d = answer_of(setup, stops->table, options);
         d.notes.push_back(
             fmt::format("{} readings were taken while the axes stood; {} means stand for them: "

@@ -9,6 +9,10 @@
 
 namespace trunnion::identification {
 
+bool states_noise(const setup::Setup& setup, const records::Reading& row) {
+    return emulator::device_noise(setup.model, row).given;
+}
+
 RowNoise stated_noise(const setup::Setup& setup, const records::ReadingTable& table,
                       const emulator::Replay& replay) {
     RowNoise noise;

@@ -13,6 +13,8 @@ struct RowNoise {
     Eigen::VectorXd sigma_mm;
     bool given = true;
 };
+/// True where the row or the setup gives the noise of the row.
+bool states_noise(const setup::Setup& setup, const records::Reading& row);
 /// As the rows or the setup state it, else the usual one: for readings that are simulated.
 RowNoise stated_noise(const setup::Setup& setup, const records::ReadingTable& table,
                       const emulator::Replay& replay);

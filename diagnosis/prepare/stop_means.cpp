@@ -7,8 +7,6 @@
 #include <tuple>
 #include <vector>
 
-#include "emulator/device_noise.h"
-
 namespace trunnion::diagnosis {
 namespace {
 
@@ -55,12 +53,6 @@ std::vector<Group> groups_of(const records::ReadingTable& table) {
     return groups;
 }
 
-bool is_stated(const setup::Setup& setup, const records::ReadingTable& table) {
-    return std::any_of(table.rows.begin(), table.rows.end(), [&](const records::Reading& row) {
-        return reads_at_rest(row.device) && emulator::device_noise(setup.model, row).given;
-    });
-}
-
 double duration_s(const records::ReadingTable& table, const Group& group) {
     return table.rows[group.back()].time_s - table.rows[group.front()].time_s;
 }
@@ -76,9 +68,13 @@ records::Reading mean_of(const records::ReadingTable& table, const Group& group)
 
 }  // namespace
 
-std::optional<StopMeans> means_of_stops(const setup::Setup& setup,
-                                        const records::ReadingTable& table) {
-    if (table.rows.empty() || is_stated(setup, table)) return std::nullopt;
+std::optional<StopMeans> means_of_stops(
+    const records::ReadingTable& table,
+    const std::function<bool(const records::Reading&)>& is_stated) {
+    const bool stated = std::any_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
+        return reads_at_rest(row.device) && is_stated(row);
+    });
+    if (table.rows.empty() || stated) return std::nullopt;
     const std::vector<Group> groups = groups_of(table);
     const double most_s = most_of_time * (table.rows.back().time_s - table.rows.front().time_s);
     StopMeans found;

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 
 #include "records/readings.h"
-#include "setup/setup.h"
 
 namespace trunnion::diagnosis {
 
@@ -19,8 +19,10 @@ struct StopMeans {
 /// reads points, and each stop of the axes: the mean of those taken there. What the machine does
 /// not repeat is the same in all of them, so that their scatter is not its noise and each of them
 /// no proof of its own. Empty without such readings, where their noise is stated (then it is that
-/// of a reading), and where the axes stand for long: a watch of time.
-std::optional<StopMeans> means_of_stops(const setup::Setup& setup,
-                                        const records::ReadingTable& table);
+/// of a reading), and where the axes stand for long: a watch of time. `is_stated`: of the noise of
+/// a row.
+std::optional<StopMeans> means_of_stops(
+    const records::ReadingTable& table,
+    const std::function<bool(const records::Reading&)>& is_stated);
 
 }  // namespace trunnion::diagnosis

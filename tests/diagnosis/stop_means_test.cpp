@@ -6,6 +6,7 @@
 
 #include "base/random.h"
 #include "diagnosis/diagnosis.h"
+#include "identification/row_noise.h"
 #include "tests/support/laser_lines.h"
 #include "tests/support/said.h"
 
@@ -36,11 +37,18 @@ records::ReadingTable stops(int times, std::uint64_t seed, double form_um) {
     return table;
 }
 
+std::optional<diagnosis::StopMeans> means_of(const setup::Setup& setup,
+                                             const records::ReadingTable& table) {
+    return diagnosis::means_of_stops(table, [&](const records::Reading& row) {
+        return identification::states_noise(setup, row);
+    });
+}
+
 }  // namespace
 
 TEST_CASE("readings of one stop are one reading", "[diagnosis][stops]") {
     const records::ReadingTable table = stops(3, 1, 0.0);
-    const auto found = diagnosis::means_of_stops(stage(), table);
+    const auto found = means_of(stage(), table);
     REQUIRE(found);
     // At each end of the runs the axis turns where it stands: 66 readings at 61 stops.
     CHECK(found->readings == 198);
@@ -66,7 +74,7 @@ TEST_CASE("what moves between readings, other directions and stated noise are no
         rows.push_back(away);
     }
     moved.rows = rows;
-    CHECK_FALSE(diagnosis::means_of_stops(stage(), moved));
+    CHECK_FALSE(means_of(stage(), moved));
 
     records::ReadingTable across = stops(2, 1, 0.0);
     for (std::size_t i = 1; i < across.rows.size(); i += 2)
@@ -76,16 +84,15 @@ TEST_CASE("what moves between readings, other directions and stated noise are no
                                      ? across.rows[i - 1].load_kg
                                      : across.rows[i - 1].load_kg + 1.0;
     std::size_t same = 0;
-    const auto found = diagnosis::means_of_stops(stage(), across);
+    const auto found = means_of(stage(), across);
     if (found) same = across.rows.size() - found->table.rows.size();
     CHECK(same == 10);  // the two readings of a turn, in both directions, five times
 
-    CHECK_FALSE(
-        diagnosis::means_of_stops(stage("noise_um = { linear = 0.1 }\n"), stops(2, 1, 0.0)));
+    CHECK_FALSE(means_of(stage("noise_um = { linear = 0.1 }\n"), stops(2, 1, 0.0)));
     records::ReadingTable stated = stops(2, 1, 0.0);
     for (records::Reading& row : stated.rows) row.sigma_mm = 1e-4;
-    CHECK_FALSE(diagnosis::means_of_stops(stage(), stated));
-    CHECK_FALSE(diagnosis::means_of_stops(stage(), laser_lines::empty_table()));
+    CHECK_FALSE(means_of(stage(), stated));
+    CHECK_FALSE(means_of(stage(), laser_lines::empty_table()));
 }
 
 TEST_CASE("a watch at rest keeps its readings", "[diagnosis][stops]") {
@@ -102,12 +109,12 @@ TEST_CASE("a watch at rest keeps its readings", "[diagnosis][stops]") {
         row.value_mm = 1e-6 * k;
         table.rows.push_back(row);
     }
-    CHECK(diagnosis::means_of_stops(stage(), table));  // four hours: a quarter at most
+    CHECK(means_of(stage(), table));  // four hours: a quarter at most
     std::erase_if(table.rows, [](const records::Reading& row) { return row.index >= 180; });
-    CHECK_FALSE(diagnosis::means_of_stops(stage(), table));  // three stops
+    CHECK_FALSE(means_of(stage(), table));  // three stops
     for (records::Reading& row : table.rows)
         if (row.index >= 170) row.commanded[Axis::X] += row.index;
-    CHECK_FALSE(diagnosis::means_of_stops(stage(), table));  // a third of the time at one
+    CHECK_FALSE(means_of(stage(), table));  // a third of the time at one
 }
 
 TEST_CASE("more readings at each stop make no gap of what the machine does not repeat",
