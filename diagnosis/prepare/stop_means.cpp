@@ -77,18 +77,22 @@ std::optional<StopMeans> means_of_stops(
     if (table.rows.empty() || stated) return std::nullopt;
     const std::vector<Group> groups = groups_of(table);
     const double most_s = most_of_time * (table.rows.back().time_s - table.rows.front().time_s);
+    const auto is_mean = [](const Group& group) { return group.size() > 1; };
     StopMeans found;
-    std::vector<bool> drop(table.rows.size(), false);
-    found.table = table;
     for (const Group& group : groups) {
-        if (group.size() < 2) continue;
+        if (!is_mean(group)) continue;
         if (duration_s(table, group) > most_s) return std::nullopt;
         found.readings += group.size();
         ++found.means;
+    }
+    if (found.means < least_stops) return std::nullopt;
+    found.table = table;
+    std::vector<bool> drop(table.rows.size(), false);
+    for (const Group& group : groups) {
+        if (!is_mean(group)) continue;
         found.table.rows[group.front()] = mean_of(table, group);
         for (std::size_t k = 1; k < group.size(); ++k) drop[group[k]] = true;
     }
-    if (found.means < least_stops) return std::nullopt;
     std::size_t at = 0;
     std::erase_if(found.table.rows, [&](const records::Reading&) { return drop[at++]; });
     return found;
