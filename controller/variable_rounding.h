@@ -4,7 +4,7 @@
 namespace trunnion::controller {
 
 /// Least input increment to which a control rounds such a value; IS-A, B, C are the increment
-/// systems of a Fanuc.
+/// systems of a Fanuc. That it rounds is assumed, and so is the size.
 enum class VariableRounding : unsigned char { none, is_a, is_b, is_c };
 
 struct VariableRoundingName {

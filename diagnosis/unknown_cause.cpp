@@ -62,8 +62,8 @@ constexpr const char* scatter_words =
 
 constexpr const char* beyond_stated_words =
     "The readings scatter more than the noise that is stated, without structure: no effect, "
-    "position "
-    "or time goes with it. The noise is larger than stated, or probe, target or clamping are loose";
+    "position or time goes with it. The noise is larger than stated, or probe, target or clamping "
+    "are loose";
 
 /// Probability that something is missing in the model. What left-out readings do not confirm may
 /// also be what the others leave uncertain: then the residuals are no larger than that, within the

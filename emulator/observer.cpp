@@ -73,7 +73,7 @@ TouchReading Observer::touch(const AxisSample& sample, const Contact& contact) c
         if (std::abs(left_mm) < root_mm) return result;
         if (i == 0) first_mm = result.contact_mm;
     }
-    if (!result.meets) return result;
+    if (!result.meets) return result;  // no contact on this line: nothing to bracket
     // Effects with steps (rounding to an increment): bisection of a bracket about the first
     // estimate.
     double reach_mm = 0.1;

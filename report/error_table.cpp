@@ -7,6 +7,7 @@
 
 #include "base/rounded.h"
 #include "base/units.h"
+#include "report/diagnosis_words.h"
 #include "report/page.h"
 #include "report/svg.h"
 
@@ -50,15 +51,12 @@ std::string against_words(const TablePoint& p) {
                        direction);
 }
 
-/// Nothing is typed into a control for what is less probable: between the places a rival differs.
-constexpr double least_claimed = 0.5;
-
 }  // namespace
 
 std::optional<PitchErrorData> pitch_error_data(const diagnosis::Cause& cause, double unit) {
     const diagnosis::BeyondCommand& beyond = cause.beyond;
-    if (!cause.holds_between || cause.probability < least_claimed || beyond.at.size() < 2)
-        return std::nullopt;
+    // Nothing is typed into a control for what is not claimed: between the places a rival differs.
+    if (!cause.holds_between || !is_claimed(cause) || beyond.at.size() < 2) return std::nullopt;
     const double first = beyond.at.front(),
                  interval = (beyond.at.back() - first) / static_cast<double>(beyond.at.size() - 1);
     const double of_one = beyond.rotary ? rad_from_deg(1.0) : 1.0;
@@ -79,8 +77,7 @@ std::string pitch_error_text(const diagnosis::Cause& cause) {
     if (!cause.holds_between)
         return "  no pitch error data: a control interpolates, and between its places the table\n"
                "  does not hold\n";
-    if (cause.probability < least_claimed)
-        return "  no pitch error data: the cause is not claimed\n";
+    if (!is_claimed(cause)) return "  no pitch error data: the cause is not claimed\n";
     const auto data = pitch_error_data(cause);
     if (!data) return "";
     return fmt::format(
