@@ -93,6 +93,21 @@ bool do_the_same(const Outcome& f, const Eigen::VectorXd& part, const Eigen::Mat
            estimation::chi_squared_tail(left / (nu * nu), freedom) > alike;
 }
 
+/// Squares that columns, fitted freely, leave of the readings.
+double left_of_readings(const Outcome& f, const Eigen::MatrixXd& columns) {
+    const Eigen::VectorXd y = f.design.projection().beside(f.design.data());
+    return (y - columns * Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(columns).solve(y))
+        .squaredNorm();
+}
+
+/// True where the readings are explained as well by the air as by the droop, or better.
+bool may_be_air(const Outcome& f, std::size_t position, const Eigen::MatrixXd& bent) {
+    const double nu = f.model.variances.nu;
+    const double lost = left_of_readings(f, others(f, position, bent.rightCols(1))) -
+                        left_of_readings(f, others(f, position, bent.leftCols(1)));
+    return lost < 0.0 || estimation::chi_squared_tail(lost / (nu * nu), 1.0) > alike;
+}
+
 bool has_air(const std::vector<std::string>& rivals) {
     return std::find(rivals.begin(), rivals.end(), refraction) != rivals.end();
 }
@@ -116,9 +131,9 @@ void doubt_bent_sight(const Outcome& f, std::vector<Claim>& claims) {
         const bool droops = group.effect && group.effect->kind == EffectKind::chain_flexure;
         if (!droops && !is_of_last_axis(f.prepared, group)) continue;
         const Eigen::MatrixXd beside = others(f, claim.position, droops ? bent.rightCols(1) : bent);
-        if (!do_the_same(f, parts.col(static_cast<Eigen::Index>(claim.position)), beside,
-                         static_cast<double>(group.columns())))
-            continue;
+        const bool same = do_the_same(f, parts.col(static_cast<Eigen::Index>(claim.position)),
+                                      beside, static_cast<double>(group.columns()));
+        if (!same && !(droops && may_be_air(f, claim.position, bent))) continue;
         claim.probability = std::min(claim.probability, rules::claimed);
         if (!droops) add_rival(f.design.group(*droop).name, claim);
         add_rival(refraction, claim);

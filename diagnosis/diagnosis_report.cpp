@@ -365,7 +365,7 @@ Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options) {
     take_back_worse(d);
     if (options.over_sessions) tell_sessions(f, claims, d);
     d.where = where_of(f.design, f.judgement.floor);
-    add_wandering_zeros(f, d.where);
+    tell_wandering_zeros(f, d);
     const FreshReadings fresh(f.prepared, options.seed);
     const ShrinkDraws draws(f.design, fresh, possible_truths(f),
                             draw_setting(f, written, options.seed));

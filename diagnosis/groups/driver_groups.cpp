@@ -10,6 +10,7 @@
 #include "base/units.h"
 #include "diagnosis/groups/beside_places.h"
 #include "diagnosis/groups/candidate_groups.h"
+#include "diagnosis/groups/driver_functions.h"
 #include "diagnosis/rules/rules.h"
 #include "diagnosis/search/whole_drivers.h"
 
@@ -21,17 +22,10 @@ namespace {
 struct Driver {
     std::string by, component, text;
     std::vector<std::vector<double>> columns;  ///< by column, one entry for each row
+    std::vector<std::vector<double>> whole;    ///< of add_whole, where these are others
     bool of_time = false;
     bool only_where = false;  ///< says where, but stands in no model: causes describe the same
 };
-
-using RowFunction = std::function<double(std::size_t)>;
-
-std::vector<double> tabulate(std::size_t n, const RowFunction& f) {
-    std::vector<double> v(n);
-    for (std::size_t i = 0; i < n; ++i) v[i] = f(i);
-    return v;
-}
 
 class DriverList {
   public:
@@ -71,8 +65,21 @@ class DriverList {
     /// Adds columns f * carrier for all pairs.
     void add(std::string by, std::string component, std::string text,
              const std::vector<RowFunction>& functions, const std::vector<RowFunction>& carriers) {
-        drivers_.push_back({std::move(by), std::move(component), std::move(text), {}});
+        drivers_.push_back({std::move(by), std::move(component), std::move(text), {}, {}});
         extend(functions, carriers);
+    }
+
+    /// A course of time; whole it is a random walk.
+    void add_course(std::string component, std::string text,
+                    const std::vector<RowFunction>& carriers, double start, double end) {
+        const RowFunction t = [this](std::size_t i) { return replay_.sample(i).time_s; };
+        add("time", std::move(component), std::move(text),
+            without_mean(smooth_functions(t, {start, end}, 6), n()), carriers);
+        drivers_.back().of_time = true;
+        for (const RowFunction& f : without_mean(random_walk(t, {start, end}), n()))
+            for (const RowFunction& c : carriers)
+                drivers_.back().whole.push_back(
+                    tabulate(n(), [&](std::size_t i) { return f(i) * c(i); }));
     }
 
     /// More columns of the driver added last.
@@ -100,36 +107,6 @@ class DriverList {
     std::vector<RowFunction> machine_axes() const { return {machine(0), machine(1), machine(2)}; }
     std::vector<RowFunction> table_axes() const { return {table(0), table(1), table(2)}; }
 
-    /// Smooth functions of a position: polynomials over the range, or harmonics of a whole turn,
-    /// and a step at zero.
-    std::vector<RowFunction> smooth(const RowFunction& q, double low, double high, bool turn,
-                                    int order) const {
-        std::vector<RowFunction> list;
-        for (int k = 1; k <= order; ++k) {
-            if (turn) {
-                list.push_back([=](std::size_t i) { return std::cos(k * q(i)); });
-                list.push_back([=](std::size_t i) { return std::sin(k * q(i)); });
-            } else {
-                const double mid = 0.5 * (low + high), half = std::max(1e-9, 0.5 * (high - low));
-                list.push_back([=](std::size_t i) {
-                    const double u = std::clamp((q(i) - mid) / half, -1.0, 1.0);
-                    return std::cos(k * std::acos(u));
-                });
-            }
-        }
-        return list;
-    }
-
-    /// A constant part would be a displacement, or the zero of an axis.
-    std::vector<RowFunction> without_mean(std::vector<RowFunction> list) const {
-        for (RowFunction& f : list) {
-            double mean = 0.0;
-            for (std::size_t i = 0; i < n(); ++i) mean += f(i) / static_cast<double>(n());
-            f = [of = std::move(f), mean](std::size_t i) { return of(i) - mean; };
-        }
-        return list;
-    }
-
     /// The positions of an axis that moves; empty where its readings cannot show a dependence.
     struct Travel {
         Axis axis = Axis::X;
@@ -149,9 +126,6 @@ class DriverList {
         return t;
     }
 
-    /// Second Legendre polynomial.
-    static double bow(double u) { return 1.5 * u * u - 0.5; }
-
     /// Products of two positions, and of their bows: an error over a plane that no motion of single
     /// axes makes (a slope along one axis that depends on the other is an angular error motion).
     void products() {
@@ -167,8 +141,11 @@ class DriverList {
                 const std::string names =
                     table_.names[moving[a].axis] + " and " + table_.names[moving[b].axis];
                 const RowFunction u = reduced(moving[a]), v = reduced(moving[b]);
-                Driver driver{
-                    names, "machine frame", "follows the product of the positions of " + names, {}};
+                Driver driver{names,
+                              "machine frame",
+                              "follows the product of the positions of " + names,
+                              {},
+                              {}};
                 for (const RowFunction& carrier : machine_axes())
                     for (auto& column : products_of(u, v, carrier))
                         driver.columns.push_back(std::move(column));
@@ -202,7 +179,8 @@ class DriverList {
             if (!moving) continue;
             const RowFunction& q = moving->q;
             const bool turn = moving->turn;
-            auto functions = smooth(q, moving->low, moving->high, turn, turn ? 6 : 7);
+            auto functions =
+                turn ? harmonics(q, 6) : smooth_functions(q, {moving->low, moving->high}, 7);
             if (moving->low < 0.0 && moving->high > 0.0 && !turn)
                 functions.push_back([q](std::size_t i) { return q(i) > 0.0 ? 1.0 : -1.0; });
             std::vector<RowFunction> carriers{machine(0), machine(1), machine(2)};
@@ -247,6 +225,10 @@ class DriverList {
         }
     }
 
+    bool is_ordered_by_axes() const {
+        return is_one_sweep(replay_, table_.axes) || is_one_cycle(replay_, table_.axes);
+    }
+
     void clocks() {
         double start = 1e300, end = -1e300, cold = 1e300, warm = -1e300;
         for (std::size_t i = 0; i < n(); ++i) {
@@ -255,20 +237,17 @@ class DriverList {
             cold = std::min(cold, replay_.sample(i).temperature_c);
             warm = std::max(warm, replay_.sample(i).temperature_c);
         }
-        const RowFunction t = [this](std::size_t i) { return replay_.sample(i).time_s; };
-        // Without a clock, in one sweep, the order of the readings is the position of the axis.
+        // Without a clock, in one sweep, the order of the readings is the position of the axis; in
+        // one cycle, position and side.
         const bool told = records::has_times(table_);
-        if (end - start > 60.0 && (told || !is_one_sweep(replay_, table_.axes))) {
-            auto functions = without_mean(smooth(t, start, end, false, 6));
-            add("time", "machine frame",
-                told ? "drifts with time" : "changes in the order of the readings", functions,
-                machine_axes());
-            drivers_.back().of_time = true;
-            add("time", "table frame",
-                told ? "moves with the table at some moment"
-                     : "moves with the table at some reading",
-                functions, table_axes());
-            drivers_.back().of_time = true;
+        if (end - start > 60.0 && (told || !is_ordered_by_axes())) {
+            add_course("machine frame",
+                       told ? "drifts with time" : "changes in the order of the readings",
+                       machine_axes(), start, end);
+            add_course("table frame",
+                       told ? "moves with the table at some moment"
+                            : "moves with the table at some reading",
+                       table_axes(), start, end);
         }
         if (warm - cold < 0.3) return;
         const RowFunction warmth = [this](std::size_t i) {
@@ -333,7 +312,7 @@ class DriverList {
                            : 0.0;
             };
             add("probe direction", "along the approach", "depends on the direction of the touch",
-                smooth(azimuth, 0, 0, true, 4), {across});
+                harmonics(azimuth, 4), {across});
         }
         if (!bar) return;
         std::vector<RowFunction> speed;
@@ -365,26 +344,37 @@ void add_driver_groups(Design& design, const Prepared& prepared, const Whitener&
         if (entry.group.table.play) with_play.push_back(entry.group.table.axis.axis);
     const DriverList list(prepared.replay, prepared.table, prepared.base, std::move(with_play));
     const double prior = rules::table_prior - std::log(static_cast<double>(list.all().size()));
-    for (const Driver& driver : list.all()) {
+    const auto whitened = [&](const Driver& driver,
+                              const std::vector<std::vector<double>>& of_rows) {
         Eigen::MatrixXd columns(static_cast<Eigen::Index>(prepared.replay.size()),
-                                static_cast<Eigen::Index>(driver.columns.size()));
-        for (std::size_t c = 0; c < driver.columns.size(); ++c)
+                                static_cast<Eigen::Index>(of_rows.size()));
+        for (std::size_t c = 0; c < of_rows.size(); ++c)
             columns.col(static_cast<Eigen::Index>(c)) =
                 usual_driver_mm *
-                Eigen::Map<const Eigen::VectorXd>(driver.columns[c].data(), columns.rows());
+                Eigen::Map<const Eigen::VectorXd>(of_rows[c].data(), columns.rows());
         whitener.apply(columns);
         if (driver.of_time) columns = beside_places(prepared, whitener, std::move(columns));
+        return columns;
+    };
+    for (const Driver& driver : list.all()) {
         ColumnGroup group;
         group.kind = GroupKind::driver;
         group.name = driver.by;
         group.component = driver.component;
         group.text = driver.text;
         group.of_time = driver.of_time;
-        const Eigen::Index first = design.add_features(columns);
-        for (Eigen::Index k = 0; k < columns.cols(); ++k) group.features.push_back(first + k);
         group.log_prior = prior;
-        if (!driver.only_where) add_whole(design, group);
-        const std::size_t added = design.add_beside(std::move(group), owned);
+        const auto on_features = [&](const std::vector<std::vector<double>>& of_rows) {
+            const Eigen::MatrixXd columns = whitened(driver, of_rows);
+            const Eigen::Index first = design.add_features(columns);
+            ColumnGroup of = group;
+            for (Eigen::Index k = 0; k < columns.cols(); ++k) of.features.push_back(first + k);
+            return of;
+        };
+        const ColumnGroup own = on_features(driver.columns);
+        if (!driver.only_where)
+            add_whole(design, driver.whole.empty() ? own : on_features(driver.whole));
+        const std::size_t added = design.add_beside(own, owned);
         if (driver.only_where) design.hide(added);
     }
 }

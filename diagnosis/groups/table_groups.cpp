@@ -29,9 +29,9 @@ constexpr Family families[] = {
     {EffectKind::positioning, false, true, false, false, 40, 24, 2},
     {EffectKind::straightness, false, false, false, false, 24, 12, 2},
     {EffectKind::angular, false, false, true, true, 16, 8, 2, rules::by_an_arm},
-    {EffectKind::backlash, false, true, false, false, 24, 12, 1},
+    {EffectKind::backlash, false, true, false, false, 40, 24, 1},
     {EffectKind::positioning, true, true, true, false, 40, 24, 2},
-    {EffectKind::backlash, true, true, true, false, 24, 12, 0},
+    {EffectKind::backlash, true, true, true, false, 40, 24, 0},
     {EffectKind::radial, true, false, false, false, 24, 12, 3},
     {EffectKind::axial, true, true, false, false, 24, 12, 2},
     {EffectKind::tilt, true, false, true, false, 24, 12, 2}};
@@ -239,7 +239,8 @@ TableForm form_of(const Prepared& p, const Family& family, const kinematics::Axi
             (sensor ? last_of_sensor(places) : std::min(last, last_on_grid(places))) - family.owned;
     } else {
         table.knots = estimation::knots_of(places, family.knots);
-        if (family.along && family.motion == EffectKind::positioning)
+        if (family.along &&
+            (family.motion == EffectKind::positioning || family.motion == EffectKind::backlash))
             if (auto targets = targets_of(p, places); !targets.empty())
                 table.knots = std::move(targets);
     }

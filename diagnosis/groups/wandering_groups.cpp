@@ -65,11 +65,13 @@ Eigen::VectorXd response_to(const Prepared& p, Axis axis) {
 
 void add_wandering_groups(Design& design, const Prepared& prepared, const Whitener& whitener,
                           Eigen::Index owned) {
-    if (!have_one_direction(prepared.replay) || is_one_sweep(prepared.replay, prepared.table.axes))
+    const bool told = records::has_times(prepared.table);
+    if (!have_one_direction(prepared.replay) ||
+        is_one_sweep(prepared.replay, prepared.table.axes) ||
+        (!told && is_one_cycle(prepared.replay, prepared.table.axes)))
         return;
     const Eigen::MatrixXd courses = courses_of_time(prepared);
     if (courses.cols() == 0) return;
-    const bool told = records::has_times(prepared.table);
     for (const Axis axis : prepared.table.axes) {
         if (!moves(prepared, axis)) continue;
         Eigen::MatrixXd columns = response_to(prepared, axis).asDiagonal() * courses;

@@ -40,6 +40,20 @@ bool is_one_sweep(const emulator::Replay& replay, const std::vector<Axis>& axes)
     });
 }
 
+bool is_one_cycle(const emulator::Replay& replay, const std::vector<Axis>& axes) {
+    return std::all_of(axes.begin(), axes.end(), [&](Axis axis) {
+        int turns = 0;
+        double last = 0.0;
+        for (std::size_t i = 1; i < replay.size(); ++i) {
+            const double step =
+                replay.sample(i).position[axis] - replay.sample(i - 1).position[axis];
+            if (step * last < 0.0) ++turns;
+            if (step != 0.0) last = step;
+        }
+        return turns <= 1;
+    });
+}
+
 namespace {
 
 /// Fold of a block of a laser or autocollimator, whose cycles may be as long as some folds: then

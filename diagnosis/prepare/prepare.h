@@ -55,6 +55,9 @@ struct Prepared {
 Prepared prepare(const setup::Setup& setup, const records::ReadingTable& table);
 /// True when an axis went one way only, never back: time is then the position.
 bool is_one_sweep(const emulator::Replay& replay, const std::vector<Axis>& axes);
+/// True where no axis turns back more than once (one cycle of ISO 230-2): the order of the readings
+/// is the position of the axis and its side.
+bool is_one_cycle(const emulator::Replay& replay, const std::vector<Axis>& axes);
 
 /// Subtracts from the readings of each laser or autocollimator test and session their mean,
 /// weighted by sigma: the zero of a test is free.

@@ -28,6 +28,13 @@ bool has_keys(const effects::Effect& effect) {
                        [](const effects::EffectParameter& p) { return p.is_key(); });
 }
 
+bool is_course_of_time(const ColumnGroup& group) {
+    using enum effects::EffectKind;
+    if (!group.effect) return group.of_time;
+    const effects::EffectKind kind = group.effect->kind;
+    return kind == thermal_drift || kind == thermal_expansion || kind == artefact_moved;
+}
+
 Eigen::VectorXd ColumnGroup::feature_values(const Eigen::VectorXd& coefficients) const {
     if (shape.size() == 0) return coefficients;
     return shape * coefficients;

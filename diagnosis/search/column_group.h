@@ -75,6 +75,8 @@ struct ColumnGroup {
 };
 
 bool has_keys(const effects::Effect& effect);
+/// True for a driver of time, a drift, an expansion and a move of an artefact.
+bool is_course_of_time(const ColumnGroup& group);
 
 /// Sets the rows of sessions before a change to zero.
 void drop_sessions(Eigen::MatrixXd& columns, const emulator::Replay& replay,

@@ -116,8 +116,13 @@ void name_contender(Design& design, const Model& model, const Contender& contend
     if (probability_against(contender) >= rules::sure) return;
     for (const std::size_t k : in_place_of(design, model, contender.model, part))
         name_rival(design, k, claim);
-    for (const std::size_t k : contender.model.members)
-        if (design.group(k).kind == GroupKind::spoiled) name_rival(design, k, claim);
+    for (const std::size_t k : contender.model.members) {
+        const ColumnGroup& group = design.group(k);
+        if (group.kind == GroupKind::spoiled) name_rival(design, k, claim);
+        const bool held = std::any_of(model.members.begin(), model.members.end(),
+                                      [&](auto m) { return same_cause(design.group(m), group); });
+        if (group.is_whole && group.of_time && !held) claim.rivals.push_back(machine_drift);
+    }
 }
 
 /// Positioning along the only line that was read may be made by an angle of the axis: that needs no

@@ -21,6 +21,8 @@ Sizes sizes_of(Design& design, const Model& model, double floor, const std::vect
 /// The error motion of a cause, in whatever form.
 effects::EffectKind motion_of(const ColumnGroup& group);
 
+/// Name of a rival: the spindle side drifts in a form of its own. No setup contains it.
+inline constexpr const char* machine_drift = "machine.drift";
 /// Name of a rival: the table is mistaken. No setup contains it.
 inline constexpr const char* mistaken_readings = "readings.mistaken";
 

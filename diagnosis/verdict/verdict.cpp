@@ -174,16 +174,10 @@ double chance_of(const Design& design, const Model& model, const NoiseModel& noi
 /// scatter, and over few tests a scatter is such a course.
 bool is_course_of_zeros(const Design& design, const Model& model) {
     const auto is_zero = [](const ColumnGroup& group) { return group.kind == GroupKind::offset; };
-    const auto is_course = [](const ColumnGroup& group) {
-        using enum effects::EffectKind;
-        if (!group.effect) return group.of_time;
-        const effects::EffectKind kind = group.effect->kind;
-        return kind == thermal_drift || kind == thermal_expansion || kind == artefact_moved;
-    };
     const bool tests = std::any_of(design.groups().begin(), design.groups().end(),
                                    [&](const auto& entry) { return is_zero(entry.group); });
     return tests && std::all_of(model.members.begin(), model.members.end(), [&](std::size_t m) {
-               return is_zero(design.group(m)) || is_course(design.group(m));
+               return is_zero(design.group(m)) || is_course_of_time(design.group(m));
            });
 }
 
