@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "diagnosis/rules/rules.h"
+#include "diagnosis/same_work.h"
 #include "estimation/distributions.h"
 
 namespace trunnion::diagnosis {
@@ -13,8 +14,6 @@ namespace {
 
 using effects::EffectKind;
 
-constexpr double alike = 1e-3;       ///< probability of a difference that is noise (assumed)
-constexpr double small_part = 0.03;  ///< of the squares: so little else is no other cause (assumed)
 constexpr double least_sine = 0.0523;  ///< of the elevation: 3 deg, below there is no cotangent
 
 /// True for a mount: nothing but rotary axes, and the targets, which stand for the line of sight,
@@ -70,29 +69,6 @@ bool is_of_last_axis(const Prepared& p, const ColumnGroup& group) {
     return motion_of(group) == EffectKind::positioning && own == last;
 }
 
-/// The columns of named causes beside one, and of bendings.
-Eigen::MatrixXd others(const Outcome& f, std::size_t position, const Eigen::MatrixXd& bent) {
-    Eigen::MatrixXd all = bent;
-    for (std::size_t k = 0; k < f.model.members.size(); ++k) {
-        if (k == position || f.design.group(f.model.members[k]).kind != GroupKind::textbook)
-            continue;
-        const Eigen::MatrixXd& own = f.design.columns(f.model.members[k]);
-        all.conservativeResize(Eigen::NoChange, all.cols() + own.cols());
-        all.rightCols(own.cols()) = own;
-    }
-    return f.design.projection().beside(all);
-}
-
-/// True where the others do what the claim does.
-bool do_the_same(const Outcome& f, const Eigen::VectorXd& part, const Eigen::MatrixXd& others,
-                 double freedom) {
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> fit(others);
-    const double left = (part - others * fit.solve(part)).squaredNorm();
-    const double nu = f.model.variances.nu;
-    return left < small_part * part.squaredNorm() ||
-           estimation::chi_squared_tail(left / (nu * nu), freedom) > alike;
-}
-
 /// Squares that columns, fitted freely, leave of the readings.
 double left_of_readings(const Outcome& f, const Eigen::MatrixXd& columns) {
     const Eigen::VectorXd y = f.design.projection().beside(f.design.data());
@@ -103,18 +79,14 @@ double left_of_readings(const Outcome& f, const Eigen::MatrixXd& columns) {
 /// True where the readings are explained as well by the air as by the droop, or better.
 bool may_be_air(const Outcome& f, std::size_t position, const Eigen::MatrixXd& bent) {
     const double nu = f.model.variances.nu;
-    const double lost = left_of_readings(f, others(f, position, bent.rightCols(1))) -
-                        left_of_readings(f, others(f, position, bent.leftCols(1)));
-    return lost < 0.0 || estimation::chi_squared_tail(lost / (nu * nu), 1.0) > alike;
+    const double lost = left_of_readings(f, named_beside(f, position, bent.rightCols(1))) -
+                        left_of_readings(f, named_beside(f, position, bent.leftCols(1)));
+    return lost < 0.0 ||
+           estimation::chi_squared_tail(lost / (nu * nu), 1.0) > rules::chance_of_difference;
 }
 
 bool has_air(const std::vector<std::string>& rivals) {
     return std::find(rivals.begin(), rivals.end(), refraction) != rivals.end();
-}
-
-void add_rival(const std::string& name, Claim& claim) {
-    if (std::find(claim.rivals.begin(), claim.rivals.end(), name) == claim.rivals.end())
-        claim.rivals.push_back(name);
 }
 
 }  // namespace
@@ -130,7 +102,8 @@ void doubt_bent_sight(const Outcome& f, std::vector<Claim>& claims) {
         const ColumnGroup& group = f.design.group(f.model.members[claim.position]);
         const bool droops = group.effect && group.effect->kind == EffectKind::chain_flexure;
         if (!droops && !is_of_last_axis(f.prepared, group)) continue;
-        const Eigen::MatrixXd beside = others(f, claim.position, droops ? bent.rightCols(1) : bent);
+        const Eigen::MatrixXd beside =
+            named_beside(f, claim.position, droops ? bent.rightCols(1) : bent);
         const bool same = do_the_same(f, parts.col(static_cast<Eigen::Index>(claim.position)),
                                       beside, static_cast<double>(group.columns()));
         if (!same && !(droops && may_be_air(f, claim.position, bent))) continue;

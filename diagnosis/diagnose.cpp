@@ -16,6 +16,7 @@
 #include "diagnosis/prepare/spoiled_readings.h"
 #include "diagnosis/prepare/stop_means.h"
 #include "diagnosis/prepare/thinning.h"
+#include "diagnosis/prepare/turning_points.h"
 #include "diagnosis/prepare/unrepeated_readings.h"
 #include "diagnosis/round.h"
 #include "diagnosis/rules/rules.h"
@@ -237,6 +238,14 @@ std::optional<Diagnosis> answer_for_other(const setup::Setup& setup,
         d.chosen_from = static_cast<std::size_t>(std::count_if(
             table.rows.begin(), table.rows.end(),
             [](const records::Reading& row) { return row.device != records::Device::none; }));
+        return d;
+    }
+    if (const auto rest = without_turning_points(table)) {
+        Diagnosis d = answer_of(setup, rest->table, options);
+        d.notes.push_back(fmt::format(
+            "{} readings at exact turning points of an axis are left out: they do not tell on which "
+            "side of its play it stands",
+            rest->readings));
         return d;
     }
     return std::nullopt;

@@ -329,8 +329,7 @@ Told told_of(const Outcome& found, const records::ReadingTable* holdout) {
                   {f.judgement.support, f.found, f.prepared.folds, f.judgement.interpolates,
                    std::max(f.judgement.part, f.judgement.beside_zeros), weighed_variance(f)});
     merge_free_forms(f, told.claims);
-    doubt_measured_surface(f, told.claims);
-    doubt_bent_sight(f, told.claims);
+    doubt_look_alikes(f, told.claims);
     return told;
 }
 

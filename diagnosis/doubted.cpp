@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "diagnosis/bent_sight.h"
+#include "diagnosis/measured_surface.h"
+#include "diagnosis/one_feed.h"
 #include "diagnosis/rules/rules.h"
 #include "diagnosis/search/solution.h"
 #include "diagnosis/verdict/line_of_form.h"
@@ -79,6 +82,12 @@ std::optional<Judgement> doubted(const Outcome& f, const std::vector<Claim>& cla
     if (less) judgement.part = judgement.beside_zeros = *told;
     if (!less && judgement.interpolates == f.judgement.interpolates) return std::nullopt;
     return judgement;
+}
+
+void doubt_look_alikes(const Outcome& found, std::vector<Claim>& claims) {
+    doubt_measured_surface(found, claims);
+    doubt_bent_sight(found, claims);
+    doubt_contour_at_one_feed(found, claims);
 }
 
 }  // namespace trunnion::diagnosis

@@ -18,4 +18,8 @@ namespace trunnion::diagnosis {
 /// or with what the causes do of the gap, where that is less than half of H.
 std::optional<Judgement> doubted(const Outcome& found, const std::vector<Claim>& claims);
 
+/// Doubts claims of what something else does as well by the physics of the test: the measured
+/// surface, a line of sight that bends, one feed.
+void doubt_look_alikes(const Outcome& found, std::vector<Claim>& claims);
+
 }  // namespace trunnion::diagnosis

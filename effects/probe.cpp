@@ -1,5 +1,9 @@
 // Effects of instruments: pretravel lobes, stylus radius, runout, tool and ballbar length.
+#include <fmt/format.h>
+
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "effects/models.h"
 #include "effects/touch_pattern.h"
@@ -17,6 +21,18 @@ double pretravel(const Vector3& d_M, double spindle_rad, std::span<const double>
                      value[2] * std::cos(3.0 * azimuth) + value[3] * std::sin(3.0 * azimuth));
 }
 
+/// Cosine and sine of each order, smaller for two lobes than for the three seats of the stylus.
+std::vector<EffectParameter> lobes() {
+    std::vector<EffectParameter> list;
+    for (const int order : {2, 3})
+        for (const char* part : {"cos", "sin"}) {
+            EffectParameter p{fmt::format("{}{}_mm", part, order), "mm", order == 2 ? 1e-3 : 2e-3};
+            p.order = order;
+            list.push_back(std::move(p));
+        }
+    return list;
+}
+
 }  // namespace
 
 Effect probe_pretravel() {
@@ -25,10 +41,7 @@ Effect probe_pretravel() {
             "three-point seating of a touch-trigger probe, long stylus",
             "calibrate the probe in all directions used, or use a strain-gauge probe",
             "trigger later by sum cosN cos(N phi) + sinN sin(N phi), N = 2, 3, phi in the spindle",
-            {{"cos2_mm", "mm", 1e-3, -1, {}, true, false},
-             {"sin2_mm", "mm", 1e-3, -1, {}, true, false},
-             {"cos3_mm", "mm", 2e-3, -1, {}, true},
-             {"sin3_mm", "mm", 2e-3, -1, {}, true}},
+            lobes(),
             [](const AxisSample& sample, const emulator::Contact& contact,
                std::span<const double> value, kinematics::Perturbation& out) {
                 if (contact.device == records::Device::touch)

@@ -71,6 +71,8 @@ constexpr double most_outliers = 0.04;  ///< of the readings: more are a gap of 
 constexpr double most_doubtful = 0.2;   ///< ... of which the evidence may say that they are spoiled
 constexpr double driver_p = 1e-4;       ///< significance level of a driver
 constexpr double driver_share = 0.05;
+constexpr double chance_of_difference =
+    1e-3;                            ///< below it two columns do not do the same (assumed)
 constexpr double rival_loss = 12.0;  ///< maximum chi-squared lost by a rival
 constexpr double rival_part = 0.04;  ///< ... or as a part of the contribution
 constexpr double rival_left = 3.0;   ///< ... and of a reading: no rival leaves twice the rms

@@ -161,14 +161,17 @@ std::vector<Offer> OffersBeside::other_forms(std::size_t position) {
 std::vector<Offer> OffersBeside::only_rivals(std::size_t position) {
     std::vector<std::size_t> kept;
     for (std::size_t k = 0; k < design_.groups().size(); ++k)
-        if (design_.groups()[k].only_rival) kept.push_back(k);
+        // What the set-up takes up wholly leaves rounding: it would explain anything.
+        if (design_.groups()[k].only_rival && design_.groups()[k].moves_readings())
+            kept.push_back(k);
     return exact(changed(position, std::nullopt), kept);
 }
 
 std::vector<Offer> OffersBeside::spoiled_visits() {
     std::vector<std::size_t> visits;
     for (std::size_t k = 0; k < design_.groups().size(); ++k)
-        if (design_.group(k).kind == GroupKind::spoiled) visits.push_back(k);
+        if (design_.group(k).kind == GroupKind::spoiled && design_.groups()[k].moves_readings())
+            visits.push_back(k);
     return exact({model_.members, held_->given.mean(), {}, {}, {}}, visits);
 }
 
