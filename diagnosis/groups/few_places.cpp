@@ -90,6 +90,30 @@ bool is_squareness_here(const Prepared& p, const effects::Effect& effect) {
     return !(seen[0][0] && seen[0][1]) && !(seen[1][0] && seen[1][1]);
 }
 
+bool is_side_of_places(const Prepared& p, const effects::Effect& effect) {
+    using enum effects::EffectKind;
+    constexpr double same_place_mm = 1e-3;
+    constexpr int most_changes = 2;
+    if ((effect.kind != lateral_play && effect.kind != backlash) ||
+        p.table.names.is_rotary(*effect.axis))
+        return false;
+    std::vector<std::pair<double, int>> sides;  // position, side
+    for (std::size_t i = 0; i < p.replay.size(); ++i) {
+        const AxisSample& sample = p.replay.sample(i);
+        const int side = sample.travel[index_of(*effect.axis)];
+        if (side != 0 && !shows_no_displacement(p, i))
+            sides.emplace_back(sample.position[*effect.axis], side);
+    }
+    std::sort(sides.begin(), sides.end());
+    int changes = 0;
+    for (std::size_t k = 1; k < sides.size(); ++k) {
+        if (sides[k].second == sides[k - 1].second) continue;
+        if (sides[k].first - sides[k - 1].first < same_place_mm) return false;
+        ++changes;
+    }
+    return changes <= most_changes;
+}
+
 bool bends_at_few_places(const Design& design, const Prepared& prepared, const Model& model,
                          std::size_t position) {
     const ColumnGroup& group = design.group(model.members[position]);

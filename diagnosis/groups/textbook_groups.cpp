@@ -220,6 +220,7 @@ void add_forms(Design& design, const Prepared& prepared, const EffectColumns& re
                     [](const effects::EffectParameter& q) { return q.mean_line; });
     // The forms of an effect share its prior; instruments are wrong one by one.
     const bool own_gains = has_own_gains(*ready.effect);
+    const bool is_form = is_side_of_places(prepared, *ready.effect);
     const double shared = own_gains ? 0.0 : std::log(1.0 + static_cast<double>(forms.size()));
     const auto add = [&](const Takes& takes) {
         ColumnGroup group =
@@ -231,7 +232,9 @@ void add_forms(Design& design, const Prepared& prepared, const EffectColumns& re
         group.since = since.session;
         group.before = since.before;
         if (group.is_change()) group.name += " since " + since.session;
-        if (group.columns() > 0) design.add(std::move(group));
+        if (group.columns() == 0) return;
+        const std::size_t added = design.add(std::move(group));
+        if (is_form) design.keep_as_rival(added);
     };
     if (!own_gains && !by_direction) add({});
     for (const Takes& takes : forms) add(takes);
