@@ -56,8 +56,14 @@ bool is_one_cycle(const emulator::Replay& replay, const std::vector<Axis>& axes)
 
 namespace {
 
-/// Fold of a block of a laser or autocollimator, whose cycles may be as long as some folds: then
-/// the same targets would be left out in every cycle. The sum of the digits of its number.
+/// True for a laser or autocollimator, whose cycles may be as long as some folds, and for an
+/// instrument that reads points of a grid.
+bool may_stand_on_grid(records::Device device) {
+    return reads_targets(device) || device == records::Device::point;
+}
+
+/// Fold of a block of such a device: else the same targets would be left out in every cycle, or a
+/// place of an axis in all layers. The sum of the digits of its number.
 int scattered_fold(int block) {
     int sum = 0;
     for (; block > 0; block /= Folds::count) sum += block % Folds::count;
@@ -84,8 +90,8 @@ Folds make_folds(const std::vector<NoiseBlock>& blocks, std::size_t rows) {
                 first + static_cast<int>(k * pieces / block.rows.size());
         for (std::size_t k = 0; k < pieces; ++k)
             folds.fold.push_back(bar ? (3 * pass + static_cast<int>(k)) % Folds::count
-                                 : reads_targets(block.device) ? scattered_fold(pass)
-                                                               : pass % Folds::count);
+                                 : may_stand_on_grid(block.device) ? scattered_fold(pass)
+                                                                   : pass % Folds::count);
         ++pass;
     }
     // Of few poses each is left out alone: with a fifth of them missing, an effect of several
