@@ -278,6 +278,7 @@ Searched search_of(const Prepared& p, const Round& round, KeySearch& keys, const
     const Whitener whitener(p.replay, p.blocks, round.noise.model, round.sigma_mm);
     Design design = empty_design(p, whitener, round.used);
     Eigen::Index owned = add_textbook_groups(design, p, whitener);
+    take_radius_for_stretch(design);
     if (round.over_sessions) owned += add_change_groups(design, p, whitener);
     add_table_groups(design, p, whitener);
     add_offset_groups(design, p, whitener);

@@ -54,6 +54,11 @@ void add_offset_groups(Design& design, const Prepared& prepared, const Whitener&
 /// angle does there is the positioning of the axis by ISO 230-1, and its rival in any form.
 void take_line_for_positioning(Design& design, const Prepared& prepared);
 
+/// Keeps a stretch of all axes as a rival where the radius of the stylus does the same: with the
+/// places of spheres and rotary axes free, all but the radius stretches alike. A probe that is off
+/// by micrometres is the nearer cause, and the stretch would hold for the whole travel.
+void take_radius_for_stretch(Design& design);
+
 /// Adds the readings of each visit as values of their own, as rivals only: what a single visit
 /// tells may be a bad reading. None for readings of many visits, or of devices that read along a
 /// way. `used`: readings that are not set aside.

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "diagnosis/groups/candidate_groups.h"
+#include "diagnosis/rules/rules.h"
 
 namespace trunnion::diagnosis {
 namespace {
@@ -106,6 +107,26 @@ void take_line_for_positioning(Design& design, const Prepared& prepared) {
         if (!lines.only || !(lines.same || have_one_arm(design, axis.axis))) continue;
         for (std::size_t k = 0; k < design.groups().size(); ++k)
             if (are_angles_of(design.group(k), axis.axis)) design.keep_as_positioning(k);
+    }
+}
+
+void take_radius_for_stretch(Design& design) {
+    constexpr double alike = 1e-3;  // of the squared columns
+    const auto textbook = [&](std::size_t k, effects::EffectKind kind) {
+        const ColumnGroup& group = design.group(k);
+        return group.kind == GroupKind::textbook && group.effect->kind == kind &&
+               !group.is_change();
+    };
+    for (std::size_t k = 0; k < design.groups().size(); ++k) {
+        if (!textbook(k, effects::EffectKind::machine_expansion)) continue;
+        for (std::size_t r = 0; r < design.groups().size(); ++r)
+            if (textbook(r, effects::EffectKind::probe_radius) &&
+                design.groups()[r].moves_readings() &&
+                design.outside(k, design.group(r).features) < alike) {
+                design.keep_as_rival(k);
+                design.favour(k, rules::far_off);
+                break;
+            }
     }
 }
 

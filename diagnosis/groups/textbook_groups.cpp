@@ -102,8 +102,10 @@ std::vector<Takes> each_alone(const effects::Effect& effect) {
 
 std::vector<std::function<bool(const effects::EffectParameter&)>> simpler_forms(
     const effects::Effect& effect) {
-    // The offsets of a stylus are set one by one, so that one of them may be wrong alone.
-    if (has_own_gains(effect) || effect.kind == effects::EffectKind::probe_runout)
+    // The offsets of a stylus, its radius and its delay are set one by one, so that one of them may
+    // be wrong alone.
+    if (has_own_gains(effect) || effect.kind == effects::EffectKind::probe_runout ||
+        effect.kind == effects::EffectKind::probe_radius)
         return each_alone(effect);
     std::vector<Takes> forms;
     std::set<std::string> vectors;
@@ -169,9 +171,18 @@ bool carries_upright(const kinematics::Chain& chain) {
     return first != chain.work.end() && first->direction.cross(Vector3::UnitZ()).norm() < 1e-3;
 }
 
+/// True for an error motion of an axis that stands at one place in all readings: whatever it does
+/// there is a constant of the set-up, and what looks like it is a zero of another channel.
+bool is_of_resting_axis(const Prepared& p, const effects::Effect& effect) {
+    constexpr double same_place = 1e-6;  // mm or rad
+    return effect.axis && effect.kind != effects::EffectKind::zero &&
+           range_of(p, *effect.axis).span() < same_place;
+}
+
 /// A change may concern an effect that the simulation already contains.
 bool offered(const Prepared& p, const effects::Effect& effect, const Since& since) {
     if (effect.parameters.empty() || has_keys(effect)) return false;
+    if (since.before.empty() && is_of_resting_axis(p, effect)) return false;
     // Through two places there is no bow, only a slope.
     if (effect.kind == effects::EffectKind::straightness && is_at_two_places(p, *effect.axis))
         return false;

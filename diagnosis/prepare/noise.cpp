@@ -44,20 +44,30 @@ bool turned_between(const records::ReadingTable& table, std::size_t before, std:
     return false;
 }
 
-/// True when a touch in a direction that the visit has already touched follows a long pause.
+/// True when a touch in a direction that the visit has already touched follows a long pause, or is
+/// the first direction of three and more again: another calibration begins.
 bool touches_again(const emulator::Replay& replay, const records::ReadingTable& table,
                    const std::vector<Eigen::Index>& visit, std::size_t i) {
     const auto time_s = [&](std::size_t k) { return table.rows[replay.table_row(k)].time_s; };
+    const auto same = [&](std::size_t a, std::size_t b) {
+        return (replay.contact(a).direction_M - replay.contact(b).direction_M).norm() < 1e-3;
+    };
+    const auto first = static_cast<std::size_t>(visit.front());
+    std::vector<std::size_t> directions;
     bool again = false;
     double shortest_s = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < visit.size(); ++k) {
         const auto at = static_cast<std::size_t>(visit[k]);
-        again =
-            again || (replay.contact(at).direction_M - replay.contact(i).direction_M).norm() < 1e-3;
+        again = again || same(at, i);
+        if (std::none_of(directions.begin(), directions.end(),
+                         [&](std::size_t other) { return same(at, other); }))
+            directions.push_back(at);
         if (k > 0)
             shortest_s =
                 std::min(shortest_s, time_s(at) - time_s(static_cast<std::size_t>(visit[k - 1])));
     }
+    constexpr std::size_t of_a_calibration = 3;
+    if (directions.size() >= of_a_calibration && same(first, i)) return true;
     const double pause_s = time_s(i) - time_s(static_cast<std::size_t>(visit.back()));
     return again && pause_s > long_pause * shortest_s;
 }

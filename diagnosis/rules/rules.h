@@ -15,6 +15,8 @@ constexpr double gain_prior = -5.521460917862246;     ///< ln 0.004: a wrong gai
 constexpr double by_an_arm = -0.7;  // ln 0.5
 /// Forms that are rivals only: angles with a bow about one line, the slope of a straightness.
 constexpr double unnamed_form = -1.4;  // ln 0.25
+constexpr double far_off = -3.0;  ///< ln 0.05: of a stretch that the radius of a stylus does as
+                                  ///< well, many times nearer to its usual size (assumed)
 /// A ripple that no position resolves, of a period that no usual lead has (assumed).
 constexpr double odd_period_prior = -3.0;           // ln 0.05
 constexpr double table_prior = -3.912023005428146;  ///< ln 0.02: free form, driver

@@ -3,7 +3,11 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
+#include <utility>
+#include <vector>
 
+#include "base/random.h"
+#include "base/units.h"
 #include "diagnosis/diagnosis.h"
 #include "tests/support/campaign.h"
 #include "tests/support/laser_lines.h"
@@ -43,6 +47,69 @@ TEST_CASE("a course of time is no error of the axes", "[diagnosis]") {
                 if (cause.effect != "unknown" && cause.effect != "thermal.drift")
                     CHECK(cause.probability.value() < 0.5);
         }
+}
+
+namespace {
+
+/// Spheres at A in slow steps to and fro, C through a turn at each, read in X, Y and Z, 20 s each.
+records::ReadingTable slow_poses(const setup::Setup& setup) {
+    std::vector<std::pair<double, double>> poses;
+    for (int c = 0; c <= 360; c += 30) poses.emplace_back(0, c);
+    for (const int a : {-30, -60, -90, -60, -30, 30, 60, 30, 0})
+        for (const int c : {0, 60, 120, 180, 240, 300, 240, 120, 0}) poses.emplace_back(a, c);
+    records::ReadingTable table = campaign::empty_table(setup);
+    for (std::size_t k = 0; k < poses.size(); ++k)
+        for (int d = 0; d < 3; ++d) {
+            records::Reading row;
+            row.index = static_cast<int>(table.rows.size());
+            row.time_s = 20.0 * static_cast<double>(k);
+            row.test = "map";
+            row.device = records::Device::sphere;
+            row.feature = "S1";
+            row.direction_M = Vector3::Unit(d);
+            row.commanded[Axis::A] = rad_from_deg(poses[k].first);
+            row.commanded[Axis::C] = rad_from_deg(poses[k].second);
+            campaign::aim(row, setup, setup.artefacts[0].center_W_mm, setup.probe->tip_S_mm);
+            table.rows.push_back(row);
+        }
+    return table;
+}
+
+}  // namespace
+
+// A follows the time: steps of a random walk look like the bearing of A.
+TEST_CASE("a random walk of the spindle is no error of the axes", "[diagnosis][walk]") {
+    const setup::Setup setup = campaign::ac_setup();
+    for (const unsigned seed : {1, 2, 3, 4, 5, 6, 7, 8}) {
+        records::ReadingTable table = slow_poses(setup);
+        SeededNoise random(seed);
+        double walk_mm = 0.0;
+        for (std::size_t k = 0; k < table.rows.size(); ++k) {
+            if (k % 3 == 0) walk_mm += 0.6e-3 * random.normal();
+            records::Reading& row = table.rows[k];
+            row.value_mm = -walk_mm * row.direction_M.z() + 0.5e-3 * random.normal();
+        }
+        const diagnosis::Diagnosis d = diagnosis::diagnose(setup, table);
+        INFO(seed << ": " << said(d));
+        for (const diagnosis::Cause& cause : d.causes) {
+            const bool of_time = cause.effect == "unknown" || cause.effect == "thermal.drift" ||
+                                 cause.effect == "artefact.moved";
+            if (!of_time) CHECK(cause.probability < 0.9);
+        }
+    }
+}
+
+// The other way round: an error of A that is read in the same slow order remains one.
+TEST_CASE("an error of an axis that is read slowly is no course of time", "[diagnosis][walk]") {
+    const setup::Setup setup = campaign::ac_setup();
+    const setup::Setup real = campaign::with_effect(
+        setup, "A.radial: EYA_cos2_mm=0.004, EZA_sin2_mm=0.003, EYA_sin1_mm=0.004");
+    for (const unsigned seed : {1, 2}) {
+        const diagnosis::Diagnosis d =
+            diagnosis::diagnose(setup, campaign::measured(real, slow_poses(setup), seed));
+        INFO(seed << ": " << said(d));
+        CHECK(probability_of(d, "A.radial") > 0.8);
+    }
 }
 
 namespace {

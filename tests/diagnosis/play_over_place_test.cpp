@@ -104,6 +104,52 @@ TEST_CASE("a play that grows along the travel, or is worn in the middle, is a ta
         }
 }
 
+// A rack: two curves, one for each direction, and medians of the runs without times.
+TEST_CASE("a curve for each direction is a table of play in one cycle", "[diagnosis][cycle]") {
+    const auto mean_mm = [](double x) { return 0.3 * std::sin(x / 450.0) - 2e-4 * x; };
+    const auto gap_mm = [](double x) {
+        return 0.3 * std::sin(x / 62.0) + 0.2 * std::sin(x / 34.0 + 1.0);
+    };
+    std::vector<std::string> notes;
+    const setup::Setup router = setup::parse_setup(
+        "[machine]\nname = \"router\"\nchain = \"w b X t\"\n"
+        "[[artefact]]\nname = \"R1\"\nkind = \"target\"\ntool_mm = [0, 0, 0]\n"
+        "[model]\nmodelled = []\n",
+        "s.toml", notes);
+    for (const unsigned seed : {1u, 2u}) {
+        std::mt19937_64 engine(seed);
+        std::normal_distribution<double> noise(0.0, 0.025);
+        records::ReadingTable table;
+        table.path = "rack.csv";
+        table.axes = {Axis::X};
+        table.comment[records::times_key] = records::invented;
+        const auto add = [&](double x, int side) {
+            records::Reading row;
+            row.index = static_cast<int>(table.rows.size());
+            row.time_s = 60.0 * row.index;
+            row.test = "X";
+            row.commanded[Axis::X] = x;
+            if (side != 0) {
+                row.device = records::Device::linear;
+                row.feature = "R1";
+                row.direction_M = Vector3::UnitX();
+                row.value_mm = mean_mm(x) + 0.5 * side * gap_mm(x) + noise(engine);
+            }
+            table.rows.push_back(row);
+        };
+        add(-1.0, 0);
+        for (int k = 0; k <= 75; ++k) add(20.0 * k, 1);
+        add(1501.0, 0);
+        for (int k = 75; k >= 0; --k) add(20.0 * k, -1);
+        const diagnosis::Diagnosis d = diagnosis::diagnose(router, table);
+        INFO(seed << ": " << said(d));
+        const diagnosis::Cause* play = table_of_play(d);
+        REQUIRE(play);
+        CHECK(play->probability > 0.8);
+        CHECK(d.after_rms_um < 35.0);
+    }
+}
+
 TEST_CASE("the same play everywhere is no table", "[diagnosis]") {
     for (const unsigned seed : {1u, 2u, 3u}) {
         const auto d = diagnosed(laser([](double) { return 8e-3; }, seed));

@@ -1,4 +1,6 @@
 // A telescope against stars: both readings of a star turn with it, and nobody states their noise.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -132,6 +134,69 @@ TEST_CASE("a line of sight that bends is a rival of the axis that carries it", "
         if (!of_axis) CHECK(rival("chain.flexure"));
         CHECK((at->what.find("refraction") != std::string::npos) == !of_axis);
     }
+}
+
+namespace {
+
+/// A fork whose polar axis leans, and stars above 20 degrees that the air lifts (`lift_rad` times
+/// the cotangent of their elevation).
+struct Equatorial {
+    double lean_rad;
+    setup::Setup setup() const {
+        std::vector<std::string> notes;
+        return setup::parse_setup(
+            fmt::format("[machine]\nname = \"mount\"\nchain = \"w b C A t\"\n"
+                        "[machine.axis.C]\ndirection = [0, {}, {}]\npoint_mm = [0, 0, 0]\n"
+                        "[machine.axis.A]\ndirection = [1, 0, 0]\npoint_mm = [0, 0, 0]\n"
+                        "[[artefact]]\nname = \"Star\"\nkind = \"target\"\n"
+                        "tool_mm = [0, 0, 0]\n[model]\nmodelled = []\n",
+                        std::sin(lean_rad), -std::cos(lean_rad)),
+            "s.toml", notes);
+    }
+    records::ReadingTable stars(double lift_rad, unsigned seed) const {
+        records::ReadingTable table = sky(160);
+        std::mt19937 random(seed);
+        std::normal_distribution<double> normal(0.0, 40e-6);
+        const Matrix3 lean = rotation_about(Vector3::UnitX(), lean_rad);
+        std::vector<records::Reading> seen;
+        for (std::size_t k = 0; k + 1 < table.rows.size(); k += 2) {
+            records::Reading pair[] = {table.rows[k], table.rows[k + 1]};
+            for (records::Reading& row : pair) row.direction_M = lean * row.direction_M;
+            const Vector3 sight = pair[1].direction_M.cross(pair[0].direction_M);
+            const Vector3 up = sight.z() > 0.0 ? sight : Vector3(-sight);
+            if (up.z() < std::sin(0.35) || up.z() > std::sin(1.45)) continue;
+            const double cotangent = std::hypot(up.x(), up.y()) / up.z();
+            const Vector3 turn = lift_rad * cotangent * up.cross(Vector3::UnitZ()).normalized();
+            for (records::Reading& row : pair) {
+                row.angular = true;
+                row.value_mm = turn.dot(row.direction_M) + normal(random);
+                seen.push_back(row);
+            }
+        }
+        table.rows = std::move(seen);
+        return table;
+    }
+};
+
+}  // namespace
+
+// The vertical is known on any mount.
+TEST_CASE("on an equatorial mount the air is a rival of a droop", "[diagnosis]") {
+    const Equatorial mount{0.73};
+    int droops = 0;
+    for (const unsigned seed : {1, 2, 3}) {
+        const records::ReadingTable table = mount.stars(270e-6, seed);
+        REQUIRE(table.rows.size() > 60);
+        const diagnosis::Diagnosis d = diagnosis::diagnose(mount.setup(), table);
+        INFO(seed << " " << said(d));
+        for (const diagnosis::Cause& c : d.causes) {
+            if (c.effect != "chain.flexure") continue;
+            ++droops;
+            CHECK(c.probability <= 0.5);
+            CHECK(std::count(c.rivals.begin(), c.rivals.end(), "air.refraction") == 1);
+        }
+    }
+    CHECK(droops > 0);
 }
 
 // A mirror on an arm, read by an autocollimator: no air bends what it shows.
