@@ -22,7 +22,7 @@ namespace {
 struct Driver {
     std::string by, component, text;
     std::vector<std::vector<double>> columns;  ///< by column, one entry for each row
-    std::vector<std::vector<double>> whole;    ///< of add_whole, where these are others
+    std::vector<std::vector<double>> walk;     ///< of a course of time: a random walk instead
     bool of_time = false;
     bool only_where = false;  ///< says where, but stands in no model: causes describe the same
 };
@@ -69,7 +69,7 @@ class DriverList {
         extend(functions, carriers);
     }
 
-    /// A course of time; whole it is a random walk.
+    /// A course of time, and a random walk, which stands against causes (contender_search.cpp).
     void add_course(std::string component, std::string text,
                     const std::vector<RowFunction>& carriers, double start, double end) {
         const RowFunction t = [this](std::size_t i) { return replay_.sample(i).time_s; };
@@ -78,7 +78,7 @@ class DriverList {
         drivers_.back().of_time = true;
         for (const RowFunction& f : without_mean(random_walk(t, {start, end}), n()))
             for (const RowFunction& c : carriers)
-                drivers_.back().whole.push_back(
+                drivers_.back().walk.push_back(
                     tabulate(n(), [&](std::size_t i) { return f(i) * c(i); }));
     }
 
@@ -372,8 +372,8 @@ void add_driver_groups(Design& design, const Prepared& prepared, const Whitener&
             return of;
         };
         const ColumnGroup own = on_features(driver.columns);
-        if (!driver.only_where)
-            add_whole(design, driver.whole.empty() ? own : on_features(driver.whole));
+        if (!driver.only_where) add_whole(design, own);
+        if (!driver.walk.empty()) add_whole(design, on_features(driver.walk));
         const std::size_t added = design.add_beside(own, owned);
         if (driver.only_where) design.hide(added);
     }

@@ -44,32 +44,52 @@ bool turned_between(const records::ReadingTable& table, std::size_t before, std:
     return false;
 }
 
-/// True when a touch in a direction that the visit has already touched follows a long pause, or is
-/// the first direction of three and more again: another calibration begins.
+bool touch_alike(const emulator::Replay& replay, std::size_t a, std::size_t b) {
+    return (replay.contact(a).direction_M - replay.contact(b).direction_M).norm() < 1e-3;
+}
+
+/// True when a touch in a direction that the visit has already touched follows a long pause.
 bool touches_again(const emulator::Replay& replay, const records::ReadingTable& table,
                    const std::vector<Eigen::Index>& visit, std::size_t i) {
     const auto time_s = [&](std::size_t k) { return table.rows[replay.table_row(k)].time_s; };
-    const auto same = [&](std::size_t a, std::size_t b) {
-        return (replay.contact(a).direction_M - replay.contact(b).direction_M).norm() < 1e-3;
-    };
-    const auto first = static_cast<std::size_t>(visit.front());
-    std::vector<std::size_t> directions;
     bool again = false;
     double shortest_s = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < visit.size(); ++k) {
         const auto at = static_cast<std::size_t>(visit[k]);
-        again = again || same(at, i);
-        if (std::none_of(directions.begin(), directions.end(),
-                         [&](std::size_t other) { return same(at, other); }))
-            directions.push_back(at);
+        again = again || touch_alike(replay, at, i);
         if (k > 0)
             shortest_s =
                 std::min(shortest_s, time_s(at) - time_s(static_cast<std::size_t>(visit[k - 1])));
     }
-    constexpr std::size_t of_a_calibration = 3;
-    if (directions.size() >= of_a_calibration && same(first, i)) return true;
     const double pause_s = time_s(i) - time_s(static_cast<std::size_t>(visit.back()));
     return again && pause_s > long_pause * shortest_s;
+}
+
+/// True when the first direction of three and more is touched again: another calibration begins.
+bool calibrates_again(const emulator::Replay& replay, const std::vector<Eigen::Index>& visit,
+                      std::size_t i) {
+    constexpr std::size_t directions_of_one = 3;
+    if (!touch_alike(replay, static_cast<std::size_t>(visit.front()), i)) return false;
+    std::vector<std::size_t> directions;
+    for (const Eigen::Index row : visit) {
+        const auto at = static_cast<std::size_t>(row);
+        if (std::none_of(directions.begin(), directions.end(),
+                         [&](std::size_t other) { return touch_alike(replay, at, other); }))
+            directions.push_back(at);
+    }
+    return directions.size() >= directions_of_one;
+}
+
+/// True where no rotary axis moves: touches share no error of a pose that differs from another's.
+bool has_one_pose(const emulator::Replay& replay, const records::ReadingTable& table) {
+    return std::all_of(table.axes.begin(), table.axes.end(), [&](Axis axis) {
+        if (!table.names.is_rotary(axis)) return true;
+        for (std::size_t i = 1; i < replay.size(); ++i)
+            if (std::abs(replay.sample(i).position[axis] - replay.sample(0).position[axis]) >
+                same_angle_rad)
+                return false;
+        return true;
+    });
 }
 
 /// Readings of a pass of a laser or autocollimator that are left out together: eight, of few
@@ -142,6 +162,7 @@ std::vector<NoiseBlock> noise_blocks(const emulator::Replay& replay,
     std::vector<NoiseBlock> blocks;
     std::map<std::string, std::size_t> open;  // by test
     const std::size_t of_pass = longest_of_pass(replay);
+    const bool one_pose = has_one_pose(replay, table);
     for (std::size_t i = 0; i < replay.size(); ++i) {
         const records::Reading& row = table.rows[replay.table_row(i)];
         const auto it = open.find(row.test);
@@ -151,7 +172,9 @@ std::vector<NoiseBlock> noise_blocks(const emulator::Replay& replay,
             same = static_cast<std::size_t>(visit.back()) + 1 == i &&
                    !(reads_targets(row.device) &&
                      (visit.size() >= of_pass || turned_back(replay, table, i))) &&
-                   continues(replay, table, visit, i);
+                   continues(replay, table, visit, i) &&
+                   !(one_pose && row.device == records::Device::touch &&
+                     calibrates_again(replay, visit, i));
         }
         if (!same) {
             open[row.test] = blocks.size();

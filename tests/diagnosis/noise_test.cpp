@@ -53,6 +53,7 @@ TEST_CASE("exact readings that no effect explains have a verdict", "[diagnosis]"
     diagnosis::DiagnosisOptions options;
     options.plan_next = false;
     const diagnosis::Diagnosis d = diagnosis::diagnose(setup, table, options);
+    INFO(said(d));
     CHECK(d.verdict != diagnosis::Verdict::no_gap);
     CHECK(d.noise_um < 1e-3);
 }

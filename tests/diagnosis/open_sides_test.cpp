@@ -75,7 +75,14 @@ TEST_CASE("an axis that never reverses has no play", "[diagnosis][sides]") {
         table.side_before = {};
         table.optional_columns = {"instrument"};
         SeededNoise random(8);
-        for (int pass = 0; pass < (reverses ? 2 : 1); ++pass)
+        for (int pass = 0; pass < (reverses ? 2 : 1); ++pass) {
+            // Beyond the last line, so that it is read from the other side.
+            records::Reading beyond;
+            beyond.index = static_cast<int>(table.rows.size());
+            beyond.time_s = 10.0 * (beyond.index / 3);
+            beyond.test = "raster";
+            beyond.commanded[Axis::Y] = 400.0;
+            if (pass > 0) table.rows.push_back(beyond);
             for (int line = 0; line < 8; ++line)
                 for (int k = 0; k < 27; ++k) {
                     records::Reading row;
@@ -93,6 +100,7 @@ TEST_CASE("an axis that never reverses has no play", "[diagnosis][sides]") {
                     if (k % 3 == 1) *row.value_mm += reverses ? told_mm : step_mm;
                     table.rows.push_back(row);
                 }
+        }
         const diagnosis::Diagnosis d = diagnosis::diagnose(setup, table);
         INFO(reverses << ": " << said(d));
         CHECK(claims(d, "Y.backlash") == reverses);
