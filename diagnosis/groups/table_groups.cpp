@@ -31,7 +31,7 @@ constexpr Family families[] = {
     {EffectKind::angular, false, false, true, true, 16, 8, 2, rules::by_an_arm},
     {EffectKind::backlash, false, true, false, false, 40, 24, 1},
     {EffectKind::positioning, true, true, true, false, 40, 24, 2},
-    {EffectKind::backlash, true, true, true, false, 40, 24, 0},
+    {EffectKind::backlash, true, true, true, false, 24, 12, 0},
     {EffectKind::radial, true, false, false, false, 24, 12, 3},
     {EffectKind::axial, true, true, false, false, 24, 12, 2},
     {EffectKind::tilt, true, false, true, false, 24, 12, 2}};

@@ -56,9 +56,14 @@ bool is_one_cycle(const emulator::Replay& replay, const std::vector<Axis>& axes)
 
 namespace {
 
-/// Fold of a block that is no piece of a pass: the sum of the digits of its number. Cycles,
-/// calibrations and layers of a grid may be as long as there are folds: with each fifth block left
-/// out at once it would be the same target, direction or place in all of them.
+/// True for a laser or autocollimator, whose cycles may be as long as there are folds, and for an
+/// instrument that reads the points of a grid.
+bool may_come_in_fives(records::Device device) {
+    return reads_targets(device) || device == records::Device::point;
+}
+
+/// Fold of a block of such a device: else the same targets would be left out in every cycle, or a
+/// place of an axis in all layers. The sum of the digits of its number.
 int scattered_fold(int block) {
     int sum = 0;
     for (; block > 0; block /= Folds::count) sum += block % Folds::count;
@@ -85,7 +90,8 @@ Folds make_folds(const std::vector<NoiseBlock>& blocks, std::size_t rows) {
                 first + static_cast<int>(k * pieces / block.rows.size());
         for (std::size_t k = 0; k < pieces; ++k)
             folds.fold.push_back(bar ? (3 * pass + static_cast<int>(k)) % Folds::count
-                                     : scattered_fold(pass));
+                                 : may_come_in_fives(block.device) ? scattered_fold(pass)
+                                                                   : pass % Folds::count);
         ++pass;
     }
     // Of few poses each is left out alone: with a fifth of them missing, an effect of several
