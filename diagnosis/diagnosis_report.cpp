@@ -381,9 +381,7 @@ Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options) {
     d.after = held_out(f, written.blocks.before, written.blocks.after);
     widen(d.after, draws.interval_elsewhere(written.model));
     d.after.high = std::max(d.after.high.value(), fitted_shrink(f, written.model));
-    if (d.verdict == Verdict::unexplained || d.verdict == Verdict::partly_explained ||
-        has_many_set_aside(f))
-        add_unknown(f, d);
+    if (leaves_something(f, d)) add_unknown(f, d);
     if (options.holdout) {
         d.after = measured_shrink(f, d.setup, *options.holdout, options.seed);
         if (d.after.set_aside > 0)

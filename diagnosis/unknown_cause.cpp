@@ -13,6 +13,11 @@
 namespace trunnion::diagnosis {
 namespace {
 
+bool is_spoiled(const Outcome& f) {
+    return static_cast<double>(set_aside(f)) >
+           rules::most_outliers * static_cast<double>(f.used.size());
+}
+
 /// True where the noise is assumed, and what is left of the readings follows nothing.
 bool is_unstated_scatter(const Outcome& f, const Diagnosis& d) {
     return f.noise.model.source == NoiseSource::assumed && d.where.empty() &&
@@ -95,7 +100,7 @@ Cause unknown_cause(const Outcome& f, const Diagnosis& d) {
         places += fmt::format(": it {} ({})", group.text, group.component);
     }
     if (places.empty()) cause.probability = probability_of_unknown(f);
-    if (has_many_set_aside(f) && places.empty()) {
+    if (is_spoiled(f) && places.empty()) {
         // Laplace's rule of succession: that many were seen.
         const auto count = static_cast<double>(set_aside(f));
         cause.probability = std::max(cause.probability.value(), (count + 1.0) / (count + 2.0));
@@ -136,9 +141,9 @@ Cause unknown_cause(const Outcome& f, const Diagnosis& d) {
 
 }  // namespace
 
-bool has_many_set_aside(const Outcome& f) {
-    return static_cast<double>(set_aside(f)) >
-           rules::most_outliers * static_cast<double>(f.used.size());
+bool leaves_something(const Outcome& f, const Diagnosis& d) {
+    return d.verdict == Verdict::unexplained || d.verdict == Verdict::partly_explained ||
+           is_spoiled(f);
 }
 
 std::string set_aside_words(const Outcome& f) {

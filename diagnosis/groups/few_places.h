@@ -12,9 +12,9 @@ bool is_at_two_places(const Prepared& prepared, Axis axis);
 /// is the squareness in each direction, and one cause of two parameters must not stand for two of
 /// one: it is offered for each direction by itself.
 bool is_squareness_here(const Prepared& prepared, const effects::Effect& effect);
-/// True for a play of a linear axis, along it or sideways, whose side is a function of the position:
-/// no place was reached from both sides, and along the travel the side changes twice at most (a grid
-/// in layers, always upwards). A step there is a form of the axis as well.
+/// True for a play of a linear axis, along it or sideways, whose side is a function of the
+/// position: no place was reached from both sides, and along the travel the side changes twice at
+/// most (a grid in layers, always upwards). A step there is a form of the axis as well.
 bool is_side_of_places(const Prepared& prepared, const effects::Effect& effect);
 
 /// True for a textbook form with a bend, or with a table beside it, of a linear axis that was read

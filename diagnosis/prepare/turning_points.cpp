@@ -17,8 +17,7 @@ bool is_turning(const records::ReadingTable& table, const records::Reading& row,
     return std::any_of(table.axes.begin(), table.axes.end(), [&](Axis axis) {
         const bool counts = row.device != records::Device::axis ||
                             table.names.find(row.feature) == std::optional(axis);
-        return counts && sample.travel[index_of(axis)] == 0 &&
-               !sample.side_unknown[index_of(axis)];
+        return counts && sample.travel[index_of(axis)] == 0 && !sample.side_unknown[index_of(axis)];
     });
 }
 
