@@ -12,6 +12,7 @@
 #include "diagnosis/causes.h"
 #include "diagnosis/changes.h"
 #include "diagnosis/doubted.h"
+#include "diagnosis/groups/few_places.h"
 #include "diagnosis/measured_surface.h"
 #include "diagnosis/reading_sizes.h"
 #include "diagnosis/rules/rules.h"
@@ -147,6 +148,7 @@ void describe_size(const Outcome& f, const Solution& solution, Diagnosis& d) {
             "repeated readings scatter {:.0f} times as much as is stated of the device: "
             "the noise is that of the repeats",
             f.judgement.scatter));
+    add_resting(f.prepared, d.unseen);
     for (std::size_t k = 0; k < f.design.groups().size(); ++k) {
         const auto& entry = f.design.groups()[k];
         if (!entry.group.effect || entry.hidden || entry.group.is_change()) continue;

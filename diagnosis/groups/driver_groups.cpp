@@ -373,7 +373,11 @@ void add_driver_groups(Design& design, const Prepared& prepared, const Whitener&
         };
         const ColumnGroup own = on_features(driver.columns);
         if (!driver.only_where) add_whole(design, own);
-        if (!driver.walk.empty()) add_whole(design, on_features(driver.walk));
+        if (!driver.walk.empty()) {
+            ColumnGroup walk = on_features(driver.walk);
+            walk.is_walk = true;
+            add_whole(design, std::move(walk));
+        }
         const std::size_t added = design.add_beside(own, owned);
         if (driver.only_where) design.hide(added);
     }

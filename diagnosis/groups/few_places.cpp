@@ -90,6 +90,27 @@ bool is_squareness_here(const Prepared& p, const effects::Effect& effect) {
     return !(seen[0][0] && seen[0][1]) && !(seen[1][0] && seen[1][1]);
 }
 
+bool is_of_resting_axis(const Prepared& p, const effects::Effect& effect) {
+    constexpr double same_place = 1e-6;  // mm or rad
+    using enum effects::EffectKind;
+    if (!effect.axis || effect.kind == zero || range_of(p, *effect.axis).span() >= same_place)
+        return false;
+    if (effect.kind != backlash && effect.kind != lateral_play) return true;
+    const auto side = [&](std::size_t i) {
+        return p.replay.sample(i).travel[index_of(*effect.axis)];
+    };
+    for (std::size_t i = 1; i < p.replay.size(); ++i)
+        if (side(i) != side(0)) return false;
+    return true;
+}
+
+void add_resting(const Prepared& prepared, std::vector<std::string>& unseen) {
+    for (const effects::Effect& effect : prepared.catalogue)
+        if (!has_keys(effect) && is_of_resting_axis(prepared, effect) &&
+            std::find(unseen.begin(), unseen.end(), effect.name) == unseen.end())
+            unseen.push_back(effect.name);
+}
+
 bool is_side_of_places(const Prepared& p, const effects::Effect& effect) {
     using enum effects::EffectKind;
     constexpr double same_place_mm = 1e-3;

@@ -12,6 +12,13 @@ bool is_at_two_places(const Prepared& prepared, Axis axis);
 /// is the squareness in each direction, and one cause of two parameters must not stand for two of
 /// one: it is offered for each direction by itself.
 bool is_squareness_here(const Prepared& prepared, const effects::Effect& effect);
+/// True for an error motion of an axis that stands at one place in all readings: whatever it does
+/// there is a constant of the set-up, and what looks like it is a zero of another channel. Its play
+/// is seen at one place, if that was reached from both sides.
+bool is_of_resting_axis(const Prepared& prepared, const effects::Effect& effect);
+/// Adds the names of these effects to those that the readings do not show.
+void add_resting(const Prepared& prepared, std::vector<std::string>& unseen);
+
 /// True for a play of a linear axis, along it or sideways, whose side is a function of the
 /// position: no place was reached from both sides, and along the travel the side changes twice at
 /// most (a grid in layers, always upwards). A step there is a form of the axis as well.

@@ -171,19 +171,10 @@ bool carries_upright(const kinematics::Chain& chain) {
     return first != chain.work.end() && first->direction.cross(Vector3::UnitZ()).norm() < 1e-3;
 }
 
-/// True for an error motion of an axis that stands at one place in all readings: whatever it does
-/// there is a constant of the set-up, and what looks like it is a zero of another channel.
-bool is_of_resting_axis(const Prepared& p, const effects::Effect& effect) {
-    constexpr double same_place = 1e-6;  // mm or rad
-    using enum effects::EffectKind;
-    // A play is seen at one place, reached from both sides.
-    return effect.axis && effect.kind != zero && effect.kind != backlash &&
-           effect.kind != lateral_play && range_of(p, *effect.axis).span() < same_place;
-}
-
 /// A change may concern an effect that the simulation already contains.
 bool offered(const Prepared& p, const effects::Effect& effect, const Since& since) {
     if (effect.parameters.empty() || has_keys(effect)) return false;
+    if (since.before.empty() && is_of_resting_axis(p, effect)) return false;
     // Through two places there is no bow, only a slope.
     if (effect.kind == effects::EffectKind::straightness && is_at_two_places(p, *effect.axis))
         return false;
@@ -260,8 +251,6 @@ Eigen::Index add_effects(Design& design, const Prepared& prepared, const Whitene
     for (const effects::Effect& effect : prepared.catalogue) {
         if (!offered(prepared, effect, since)) continue;
         list.push_back({&effect, material_of(prepared, effect, effect.zeros(), since.before), all});
-        if (since.before.empty() && is_of_resting_axis(prepared, effect))
-            list.back().material.columns.setZero();
         all += list.back().material.columns.cols();
     }
     Eigen::MatrixXd white(prepared.base.residual_mm.size(), all);

@@ -45,6 +45,7 @@ struct ColumnGroup {
     std::string component, text;              ///< of a driver
     bool of_time = false;                     ///< a driver: a course of time
     bool is_whole = false;                    ///< a driver with what effects do as well
+    bool is_walk = false;                     ///< a driver that only stands against causes
     bool is_anything = false;                 ///< a driver that follows nearly everything, too:
                                               ///< by itself it does not tell where
     bool machine_jump = false;                ///< of diagnosis/groups/machine_jump.h
