@@ -7,6 +7,7 @@
 
 #include "base/units.h"
 #include "diagnosis/groups/ripples.h"
+#include "diagnosis/prepare/places.h"
 #include "diagnosis/rules/rules.h"
 
 namespace trunnion::diagnosis {
