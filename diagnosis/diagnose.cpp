@@ -244,8 +244,7 @@ std::optional<Diagnosis> answer_for_other(const setup::Setup& setup,
         Diagnosis d = answer_of(setup, rest->table, options);
         d.notes.push_back(
             fmt::format("{} readings at exact turning points of an axis are left out: they do not "
-                        "tell on which "
-                        "side of its play it stands",
+                        "tell on which side of its play it stands",
                         rest->readings));
         return d;
     }

@@ -1,7 +1,6 @@
 #include "diagnosis/same_work.h"
 
 #include <Eigen/QR>
-#include <algorithm>
 
 #include "diagnosis/rules/rules.h"
 #include "estimation/distributions.h"
@@ -33,11 +32,6 @@ bool do_the_same(const Outcome& f, const Eigen::VectorXd& part, const Eigen::Mat
     const double nu = f.model.variances.nu;
     return left < small_part * part.squaredNorm() ||
            estimation::chi_squared_tail(left / (nu * nu), freedom) > rules::chance_of_difference;
-}
-
-void add_rival(const std::string& name, Claim& claim) {
-    if (std::find(claim.rivals.begin(), claim.rivals.end(), name) == claim.rivals.end())
-        claim.rivals.push_back(name);
 }
 
 }  // namespace trunnion::diagnosis

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <string>
 
 #include "diagnosis/diagnosis_report.h"
 
@@ -17,8 +16,5 @@ Eigen::MatrixXd named_beside(const Outcome& found, std::size_t position,
 /// `freedom`: columns of the claim.
 bool do_the_same(const Outcome& found, const Eigen::VectorXd& part, const Eigen::MatrixXd& columns,
                  double freedom);
-
-/// Names a rival once.
-void add_rival(const std::string& name, Claim& claim);
 
 }  // namespace trunnion::diagnosis

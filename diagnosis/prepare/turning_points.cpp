@@ -25,7 +25,7 @@ bool is_turning(const records::ReadingTable& table, const records::Reading& row,
 
 std::optional<WithoutTurningPoints> without_turning_points(const records::ReadingTable& table) {
     const auto is_dense = [](const records::Reading& row) {
-        return row.device != records::Device::none && records::is_continuous(row.device);
+        return records::is_continuous(row.device);
     };
     if (std::none_of(table.rows.begin(), table.rows.end(), is_dense)) return std::nullopt;
     const std::vector<AxisSample> samples = records::samples_of(table);

@@ -121,7 +121,7 @@ void name_contender(Design& design, const Model& model, const Contender& contend
         if (group.kind == GroupKind::spoiled) name_rival(design, k, claim);
         const bool held = std::any_of(model.members.begin(), model.members.end(),
                                       [&](auto m) { return same_cause(design.group(m), group); });
-        if (group.is_whole && group.of_time && !held) claim.rivals.push_back(machine_drift);
+        if (group.is_whole && group.of_time && !held) add_rival(machine_drift, claim);
     }
 }
 
@@ -370,6 +370,11 @@ std::vector<Claim> claims_of(const Searching& search, const Model& model, const 
     doubt_lines_of_forms(design, model, claims);
     put_in_order(design, model, claims);
     return claims;
+}
+
+void add_rival(const std::string& name, Claim& claim) {
+    if (std::find(claim.rivals.begin(), claim.rivals.end(), name) == claim.rivals.end())
+        claim.rivals.push_back(name);
 }
 
 }  // namespace trunnion::diagnosis

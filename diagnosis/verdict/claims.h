@@ -37,6 +37,8 @@ struct Claim {
     bool interpolates = true;  ///< a table that predicts left-out positions
     bool second_part = false;  ///< the smaller part of an error that stands in two claims
 };
+/// Names a rival once.
+void add_rival(const std::string& name, Claim& claim);
 
 /// Evidence of left-out readings about one member.
 struct Support {

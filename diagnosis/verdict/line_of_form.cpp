@@ -91,11 +91,6 @@ std::optional<double> probability_beside(Design& design, const Model& model, std
                                 std::max(1.0, freedom_of(design, model, form)));
 }
 
-void add_rival(const std::string& name, Claim& claim) {
-    if (std::find(claim.rivals.begin(), claim.rivals.end(), name) == claim.rivals.end())
-        claim.rivals.push_back(name);
-}
-
 }  // namespace
 
 std::optional<std::size_t> form_of_line(const Design& design, const Model& model,

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/support/campaign.h"
+#include "tests/support/said.h"
 
 namespace trunnion {
 
@@ -30,6 +31,27 @@ TEST_CASE("scattered wild readings are left out, neighbouring ones are what the 
     std::vector<std::size_t> many;
     for (std::size_t k = 3; k < 450; k += 22) many.push_back(k);
     CHECK(left_out(many).empty());  // more than 4 of 100
+}
+
+// What explains the others says nothing of those that were left out.
+TEST_CASE("many readings set aside are named beside causes that explain the others",
+          "[diagnosis][aside]") {
+    const setup::Setup setup = campaign::bc_setup();
+    const setup::Setup real = campaign::with_effect(setup, "C.backlash: gap_rad=0.0002");
+    for (const int every : {0, 12}) {  // none, and one component of one pose in four
+        records::ReadingTable table = campaign::empty_table(setup);
+        campaign::add_sphere_map(table, setup, 60, 7);
+        table = campaign::measured(real, table, 7);
+        int device_rows = 0;
+        for (records::Reading& row : table.rows)
+            if (row.device == records::Device::sphere && every > 0 && device_rows++ % every == 0)
+                *row.value_mm += 0.2;
+        const diagnosis::Diagnosis d = diagnosis::diagnose(setup, table);
+        INFO(every << ": " << said(d) << ", set aside " << d.outliers);
+        CHECK(probability_of(d, "C.backlash") > 0.8);
+        CHECK((d.outliers > 0) == (every > 0));
+        CHECK((probability_of(d, "unknown") > 0.5) == (every > 0));
+    }
 }
 
 }  // namespace trunnion
