@@ -7,13 +7,11 @@
 #include <optional>
 
 #include "diagnosis/advice/next_measurement.h"
-#include "diagnosis/bent_sight.h"
 #include "diagnosis/beyond_command.h"
 #include "diagnosis/causes.h"
 #include "diagnosis/changes.h"
 #include "diagnosis/doubted.h"
 #include "diagnosis/groups/few_places.h"
-#include "diagnosis/measured_surface.h"
 #include "diagnosis/reading_sizes.h"
 #include "diagnosis/rules/rules.h"
 #include "diagnosis/search/offers.h"
@@ -378,8 +376,7 @@ Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options) {
             is_written(f.design, written.model, f.design.group(f.model.members[claim.position]));
     }
     join_of_axis(f.prepared.catalogue, d.causes);
-    tell_measured_surface(f, d.causes);
-    tell_bent_sight(d.causes);
+    tell_look_alikes(f, d.causes);
     d.after = held_out(f, written.blocks.before, written.blocks.after);
     widen(d.after, draws.interval_elsewhere(written.model));
     d.after.high = std::max(d.after.high.value(), fitted_shrink(f, written.model));

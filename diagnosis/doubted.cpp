@@ -90,4 +90,10 @@ void doubt_look_alikes(const Outcome& found, std::vector<Claim>& claims) {
     doubt_contour_at_one_feed(found, claims);
 }
 
+void tell_look_alikes(const Outcome& found, std::vector<Cause>& causes) {
+    tell_measured_surface(found, causes);
+    tell_bent_sight(causes);
+    tell_one_feed(causes);
+}
+
 }  // namespace trunnion::diagnosis

@@ -21,5 +21,7 @@ std::optional<Judgement> doubted(const Outcome& found, const std::vector<Claim>&
 /// Doubts claims of what something else does as well by the physics of the test: the measured
 /// surface, a line of sight that bends, one feed.
 void doubt_look_alikes(const Outcome& found, std::vector<Claim>& claims);
+/// Says so of the causes.
+void tell_look_alikes(const Outcome& found, std::vector<Cause>& causes);
 
 }  // namespace trunnion::diagnosis

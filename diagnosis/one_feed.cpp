@@ -2,6 +2,7 @@
 
 #include <Eigen/QR>
 #include <algorithm>
+#include <string>
 
 #include "diagnosis/rules/rules.h"
 #include "diagnosis/same_work.h"
@@ -68,6 +69,17 @@ void doubt_contour_at_one_feed(const Outcome& f, std::vector<Claim>& claims) {
         return;
     claimed->probability = std::min(claimed->probability, rules::claimed);
     name_scales(f, part, scales, *claimed);
+}
+
+void tell_one_feed(std::vector<Cause>& causes) {
+    for (Cause& cause : causes)
+        if (cause.effect == effects::identity_of(EffectKind::servo_contour).name &&
+            std::any_of(cause.rivals.begin(), cause.rivals.end(),
+                        [](const std::string& rival) { return rival.ends_with(".scale"); }))
+            cause.what +=
+                ". Or the axes have these scales, which do the same on circles at one feed: "
+                "circles "
+                "at another feed would tell";
 }
 
 }  // namespace trunnion::diagnosis

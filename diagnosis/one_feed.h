@@ -13,4 +13,7 @@ namespace trunnion::diagnosis {
 /// likely as they at most, and they are its rivals. Another feed tells them apart.
 void doubt_contour_at_one_feed(const Outcome& found, std::vector<Claim>& claims);
 
+/// Says so of a cause that has these rivals.
+void tell_one_feed(std::vector<Cause>& causes);
+
 }  // namespace trunnion::diagnosis

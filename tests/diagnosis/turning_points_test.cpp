@@ -144,9 +144,11 @@ TEST_CASE("at one feed scales are no lag of the second order", "[diagnosis][turn
         }
         CHECK(d.verdict == diagnosis::Verdict::ambiguous);
         for (const diagnosis::Cause& c : d.causes)
-            if (c.effect == "servo.contour")
+            if (c.effect == "servo.contour") {
+                CHECK_THAT(c.what, Catch::Contains("another feed would tell"));
                 for (const char* scale : {"X.scale", "Y.scale", "Z.scale"})
                     CHECK(std::count(c.rivals.begin(), c.rivals.end(), scale) == 1);
+            }
     }
 }
 
