@@ -14,6 +14,7 @@
 #include "emulator/replay.h"
 #include "identification/sensitivity.h"
 #include "identification/simulated.h"
+#include "identification/unknown_sides.h"
 #include "records/with_values.h"
 #include "report/parameters_json.h"
 #include "report/readings_json.h"
@@ -60,6 +61,9 @@ int predict(const PredictOptions& options) {
                      ": these points were imported with another declared "
                      "geometry (" +
                      list + "); predicted is what this setup reads at their positions"});
+    if (const std::string axes = identification::sides_taken_as_plus(setup, table); !axes.empty())
+        print_notes({options.readings + ": no row tells from which side " + axes +
+                     " came before the first motion: taken as + (head line `# side = ..`)"});
     const auto found = derivatives(options, setup, table);
     const records::ReadingTable read =
         options.noise ? identification::simulated(setup, table, options.seed)

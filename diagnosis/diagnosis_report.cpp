@@ -330,6 +330,7 @@ Told told_of(const Outcome& found, const records::ReadingTable* holdout) {
                    std::max(f.judgement.part, f.judgement.beside_zeros), weighed_variance(f)});
     merge_free_forms(f, told.claims);
     doubt_look_alikes(f, told.claims);
+    told.written = without_unlikely(found, std::move(told.written), told.claims);
     return told;
 }
 

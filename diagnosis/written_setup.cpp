@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <optional>
 
 #include "base/alarm.h"
@@ -12,6 +11,7 @@
 #include "diagnosis/rules/rules.h"
 #include "diagnosis/search/solution.h"
 #include "diagnosis/set_up_alone.h"
+#include "diagnosis/written_candidates.h"
 #include "effects/settings.h"
 #include "estimation/quantiles.h"
 
@@ -20,174 +20,10 @@ namespace {
 
 /// Limit of the loss on left-out paths, relative to the set-up alone.
 constexpr double most_harm = 1.2;
-constexpr double least_agreement = 1.0;  ///< t statistic of a searched form on left-out paths
-constexpr double least_part = 0.1;       ///< of its contribution that it must save there
-
-using TakesMember = std::function<bool(GroupKind, std::size_t group)>;
-
-Model only(const Outcome& f, Model model, const TakesMember& takes) {
-    for (std::size_t k = model.members.size(); k-- > 0;)
-        if (const std::size_t m = model.members[k]; !takes(f.design.group(m).kind, m))
-            model = without(model, k);
-    return model;
-}
-
-std::size_t position_of(const Outcome& f, std::size_t group) {
-    const auto at = std::find(f.model.members.begin(), f.model.members.end(), group);
-    return static_cast<std::size_t>(at - f.model.members.begin());
-}
-
-bool is_large(const Outcome& f, std::size_t group) {
-    return f.judgement.large[position_of(f, group)];
-}
-
-/// Which members contribute to a prediction: causes, and zeros. What is to be written is judged
-/// beside all zeros; the gap contains the large ones.
-enum class Zeros : unsigned char { all, small };
-std::vector<bool> predicting(const Outcome& f, const Model& model, Zeros zeros) {
-    std::vector<bool> list;
-    for (const std::size_t m : model.members) {
-        const GroupKind kind = f.design.group(m).kind;
-        const bool zero = kind == GroupKind::offset && (zeros == Zeros::all || !is_large(f, m));
-        list.push_back(is_cause(kind) || zero);
-    }
-    return list;
-}
-
-BlockLoss loss_of(const Outcome& f, const Model& model, const Folds& folds) {
-    return LeftOut(f.design, model, folds, f.used)
-        .loss(std::vector<bool>(model.members.size(), true), predicting(f, model, Zeros::all));
-}
-
-Eigen::VectorXd residual_of(const Outcome& f, const Model& model, const Folds& folds,
-                            Zeros zeros = Zeros::small) {
-    return LeftOut(f.design, model, folds, f.used)
-        .residual(std::vector<bool>(model.members.size(), true), predicting(f, model, zeros));
-}
 
 bool has_tables(const Outcome& f, const Model& model) {
     return std::any_of(model.members.begin(), model.members.end(),
                        [&](std::size_t m) { return f.design.group(m).kind == GroupKind::table; });
-}
-
-/// True for what was chosen among many forms, so that it fits what other causes leave, too.
-bool has_searched_form(GroupKind kind) {
-    return kind == GroupKind::table || kind == GroupKind::periodic;
-}
-
-/// Squares that a searched form saves on left-out paths: more than their scatter, and a part of
-/// what it contributes to the model.
-bool helps(const Saving& saving, double contribution) {
-    return saving.t >= least_agreement && saving.sum >= least_part * contribution;
-}
-
-/// For each member: whether it predicts between its positions, or may be written for them alone,
-/// and, where its form was searched, helps on left-out paths. What does not help is dropped one by
-/// one, the worst first.
-std::vector<bool> predicting_elsewhere(const Outcome& f, const Folds& paths) {
-    const std::vector<bool> counts = predicting(f, f.model, Zeros::all);
-    const Eigen::MatrixXd parts = contributions(f.design, f.model, fit_of(f.design, f.model));
-    const LeftOut left(f.design, f.model, paths, f.used);
-    const auto loss = [&](const std::vector<bool>& fitted) {
-        std::vector<bool> predicts = counts;
-        for (std::size_t k = 0; k < fitted.size(); ++k) predicts[k] = predicts[k] && fitted[k];
-        return left.loss(fitted, predicts);
-    };
-    std::vector<bool> kept = f.judgement.interpolates;
-    for (std::size_t k = 0; k < kept.size(); ++k)
-        kept[k] = kept[k] || holds_at_places(f, f.model.members[k]);
-    for (BlockLoss with = loss(kept);; with = loss(kept)) {
-        std::optional<std::size_t> worst;
-        double least = 1e300;
-        for (std::size_t k = 0; k < kept.size(); ++k) {
-            if (!kept[k] || !has_searched_form(f.design.group(f.model.members[k]).kind)) continue;
-            std::vector<bool> rest = kept;
-            rest[k] = false;
-            const Saving saving = saving_of(loss(rest), with);
-            const double contribution = parts.col(static_cast<Eigen::Index>(k)).squaredNorm();
-            if (helps(saving, contribution) || saving.t >= least) continue;
-            least = saving.t;
-            worst = k;
-        }
-        if (!worst) return kept;
-        kept[*worst] = false;
-    }
-}
-
-/// A changed model, tuned, without members that are many times the usual size only there: without
-/// what was taken out, the readings do not tell how large they are.
-Model without_enormous(const Outcome& f, Model model) {
-    const std::vector<double> found = usual_sizes(f.design, f.model);
-    const auto was_enormous = [&](std::size_t group) {
-        const std::size_t at = position_of(f, group);
-        return at < found.size() && found[at] > rules::enormous;
-    };
-    for (bool again = true; again;) {
-        model = tuned(f.design, f.setting, std::move(model), 2);
-        const std::vector<double> sizes = usual_sizes(f.design, model);
-        again = false;
-        for (std::size_t k = model.members.size(); k-- > 0;) {
-            const std::size_t m = model.members[k];
-            if (!is_cause(f.design.group(m).kind) || sizes[k] <= rules::enormous || was_enormous(m))
-                continue;
-            model = without(model, k);
-            again = true;
-        }
-    }
-    return model;
-}
-
-/// The model with the textbook forms of the tables that were found: a few numbers may hold where
-/// the curve does not.
-Model with_textbook_forms(const Outcome& f, Model model) {
-    for (const std::size_t m : f.model.members) {
-        const ColumnGroup& table = f.design.group(m);
-        if (table.kind != GroupKind::table) continue;
-        for (std::size_t k = 0; k < f.design.groups().size(); ++k) {
-            const Design::Entry& entry = f.design.groups()[k];
-            if (entry.group.kind != GroupKind::textbook || entry.group.name != table.name ||
-                entry.group.is_change() || entry.hidden || !entry.visible() ||
-                std::count(model.members.begin(), model.members.end(), k) > 0)
-                continue;
-            model.members.push_back(k);
-            model.variances.tau.push_back(1.0);
-        }
-    }
-    return model;
-}
-
-struct WrittenCandidate {
-    Model model;
-    bool found = true;  ///< false: with forms that the search did not choose
-};
-
-/// The found model without the parts that do not predict, the most complete one first.
-std::vector<WrittenCandidate> candidates_of(const Outcome& f, const Folds& paths) {
-    const std::vector<bool> kept = predicting_elsewhere(f, paths);
-    const auto all = [&](GroupKind, std::size_t m) { return bool{kept[position_of(f, m)]}; };
-    const auto causes = [&](GroupKind k, std::size_t m) {
-        return all(k, m) && k != GroupKind::driver;
-    };
-    const auto named = [&](GroupKind k, std::size_t m) {
-        return all(k, m) && k != GroupKind::table;
-    };
-    const auto named_causes = [&](GroupKind k, std::size_t m) {
-        return named(k, m) && k != GroupKind::driver;
-    };
-    std::vector<WrittenCandidate> list;
-    const auto add = [&](Model model, bool found) {
-        if (std::any_of(list.begin(), list.end(), [&](const WrittenCandidate& c) {
-                return c.model.members == model.members;
-            }))
-            return;
-        if (model.members != f.model.members) model = without_enormous(f, std::move(model));
-        list.push_back({std::move(model), found});
-    };
-    for (const TakesMember& takes :
-         {TakesMember(all), TakesMember(causes), TakesMember(named), TakesMember(named_causes)})
-        add(only(f, f.model, takes), true);
-    add(with_textbook_forms(f, only(f, f.model, named)), false);
-    return list;
 }
 
 /// The set-up with all zeros.
@@ -364,35 +200,67 @@ bool has_changes(const Outcome& f, const Model& model) {
                        [&](std::size_t m) { return f.design.group(m).is_change(); });
 }
 
+/// The setup of the written model, and what it leaves of left-out readings.
+void write_out(const Outcome& f, const Paths& paths, Written& w) {
+    const Model none = without_causes(f);
+    w.setup = setup_of(f, w.model);
+    const bool causes = has_causes(f, w.model) && !has_changes(f, w.model);
+    if (causes) w.setup = read_again(f, w.model, std::move(w.setup));
+    if (causes && !holds_when_read(f, w.model, w.setup)) {
+        w.model = none;
+        w.part = 0.0;
+        w.setup = set_up_alone(f);
+    }
+    w.blocks = {f.judgement.left_before, residual_of(f, w.model, f.prepared.folds)};
+    w.paths = {residual_of(f, none, paths.folds), residual_of(f, w.model, paths.folds)};
+}
+
+/// Members that are rather one of their rivals, or nothing: the same words as in the report.
+std::vector<std::size_t> unlikely_of(const Outcome& f, const std::vector<Claim>& claims) {
+    std::vector<std::size_t> groups;
+    for (const Claim& claim : claims)
+        if (claim.probability < rules::rather_not)
+            groups.push_back(f.model.members[claim.position]);
+    return groups;
+}
+
 }  // namespace
 
 Written written_setup(const Outcome& f) {
     Written w;
     w.model = {{}, {{}, f.model.variances.nu}, 0.0};
     if (f.judgement.gap && std::max(f.judgement.part, f.judgement.beside_zeros) > 0.0) {
-        const Model none = without_causes(f);
         const Paths paths = paths_of(f.prepared);
-        w.model = none;
+        w.model = without_causes(f);
         choose(f, paths, w);
         // A cause is no more likely than this part: rather not there, it is not written. Where the
         // rest holds at the measured places only, the part without it says nothing of a cause.
-        if (w.part < rules::partly && f.judgement.between_places && !w.only_here) w.model = none;
-        w.setup = setup_of(f, w.model);
-        const bool causes = has_causes(f, w.model) && !has_changes(f, w.model);
-        if (causes) w.setup = read_again(f, w.model, std::move(w.setup));
-        if (causes && !holds_when_read(f, w.model, w.setup)) {
-            w.model = none;
-            w.part = 0.0;
-            w.setup = set_up_alone(f);
-        }
-        w.blocks = {f.judgement.left_before, residual_of(f, w.model, f.prepared.folds)};
-        w.paths = {residual_of(f, none, paths.folds), residual_of(f, w.model, paths.folds)};
+        if (w.part < rules::partly && f.judgement.between_places && !w.only_here)
+            w.model = without_causes(f);
+        write_out(f, paths, w);
     } else {
         w.setup = set_up_alone(f);
         w.blocks = {f.judgement.left_before, f.judgement.left_before};
         w.paths = w.blocks;
     }
     return w;
+}
+
+Written without_unlikely(const Outcome& f, Written written, const std::vector<Claim>& claims) {
+    Model model = written.model;
+    for (const std::size_t group : unlikely_of(f, claims)) {
+        const auto at = std::find(model.members.begin(), model.members.end(), group);
+        if (at == model.members.end()) continue;
+        Model rest = without_enormous(
+            f, without(model, static_cast<std::size_t>(at - model.members.begin())));
+        const Saving saving =
+            saving_of(loss_of(f, rest, f.prepared.folds), loss_of(f, model, f.prepared.folds));
+        if (saving.t < rules::least_t && has_causes(f, rest)) model = std::move(rest);
+    }
+    if (model.members == written.model.members) return written;
+    written.model = std::move(model);
+    write_out(f, paths_of(f.prepared), written);
+    return written;
 }
 
 }  // namespace trunnion::diagnosis

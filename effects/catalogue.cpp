@@ -109,6 +109,13 @@ CarriedTool carried_tool(const setup::Setup& setup) {
     return tool;
 }
 
+void look_for_periods_within(const DataExtent& extent, Effect& effect) {
+    if (effect.kind != EffectKind::cyclic) return;
+    for (EffectParameter& p : effect.parameters)
+        if (p.is_key() && !p.counts_periods)
+            p.grid = ripple_periods_mm(extent.most[*effect.axis] - extent.least[*effect.axis]);
+}
+
 }  // namespace
 
 Catalogue make_catalogue(const setup::Setup& setup, const DataExtent& extent) {
@@ -149,17 +156,29 @@ Catalogue make_catalogue(const setup::Setup& setup, const DataExtent& extent) {
         list.push_back(chain_collimation(chain));
         list.push_back(chain_flexure(chain, tool));
     }
-    for (Effect& effect : list) hide_from_encoders(effect);
+    for (Effect& effect : list) {
+        look_for_periods_within(extent, effect);
+        hide_from_encoders(effect);
+    }
     return list;
 }
 
 DataExtent extent_of(const setup::Setup& setup, const records::ReadingTable& table) {
     DataExtent extent;
     if (table.rows.empty()) return extent;
-    extent.start_s = table.rows.front().time_s;
-    extent.end_s = table.rows.back().time_s;
-    for (const records::Reading& row : table.rows)
-        if (row.device != records::Device::none) extent.devices.insert(row.device);
+    extent.start_s = extent.end_s = table.rows.front().time_s;
+    for (const records::Reading& row : table.rows) {
+        if (row.device == records::Device::none) continue;
+        extent.start_s = std::min(extent.start_s, row.time_s);
+        extent.end_s = std::max(extent.end_s, row.time_s);
+        const bool first = extent.devices.empty();
+        extent.devices.insert(row.device);
+        for (const Axis axis : table.axes) {
+            double &least = extent.least[axis], &most = extent.most[axis];
+            least = first ? row.commanded[axis] : std::min(least, row.commanded[axis]);
+            most = first ? row.commanded[axis] : std::max(most, row.commanded[axis]);
+        }
+    }
     for (const setup::Artefact& artefact : setup.artefacts) {
         std::vector<double> times;
         for (const records::Reading& row : table.rows)

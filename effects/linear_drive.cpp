@@ -8,6 +8,17 @@
 
 namespace trunnion::effects {
 
+std::vector<double> ripple_periods_mm(double range_mm) {
+    constexpr double least_mm = 4.0, most_mm = 50.0, long_mm = 200.0, finest = 1.0 / 200.0;
+    constexpr double step = 1.0142;  // between two periods, as 180 of them from 4 to 50 mm
+    if (range_mm <= 0.0 || range_mm >= long_mm) return geometric_grid(least_mm, most_mm, 180);
+    const double part = range_mm / long_mm;
+    const double low_mm = std::max(least_mm * part * part, finest * range_mm);
+    const double high_mm = std::min(most_mm, 0.5 * range_mm);
+    return geometric_grid(low_mm, high_mm,
+                          1 + static_cast<int>(std::ceil(std::log(high_mm / low_mm) / std::log(step))));
+}
+
 Effect linear_cyclic(const kinematics::AxisGeometry& axis) {
     return {identity_of(axis, EffectKind::cyclic),
             "A ripple of the position that repeats with every turn of the ballscrew",
@@ -16,7 +27,7 @@ Effect linear_cyclic(const kinematics::AxisGeometry& axis) {
             "position + cos_mm cos(2 pi q / p) + sin_mm sin(2 pi q / p), p = period_mm",
             {{"cos_mm", "mm", 2e-3, -1, {}, true},
              {"sin_mm", "mm", 2e-3, -1, {}, true},
-             {"period_mm", "mm", 10.0, -1, geometric_grid(4.0, 50.0, 180), true}},
+             {"period_mm", "mm", 10.0, -1, ripple_periods_mm(0.0), true}},
             [k = axis.axis](const AxisSample& sample, const emulator::Contact&,
                             std::span<const double> value, kinematics::Perturbation& out) {
                 const double angle = 2.0 * pi * sample.position[k] / value[2];

@@ -13,6 +13,8 @@ struct DataExtent {
     double end_s = 7200.0;
     std::vector<std::vector<double>> times_s;  ///< times of the rows of each artefact, rising
     std::set<records::Device> devices;         ///< that read at least one row
+    AxisPositions least, most;  ///< commanded positions of rows of devices, mm and rad; both 0
+                                ///< without rows
 };
 
 /// What the last axis of the tool side carries: where its weight acts, and where it points to.
@@ -33,6 +35,11 @@ Effect linear_scale(const kinematics::AxisGeometry& axis);
 Effect linear_straightness(const kinematics::AxisGeometry& axis);
 Effect linear_angular(const kinematics::AxisGeometry& axis);
 Effect linear_cyclic(const kinematics::AxisGeometry& axis);
+/// Periods (mm) of ripples that are looked for where an axis is read over this range, mm: 4 to 50,
+/// the leads of machine tools; from 200 mm down to shorter ones, because a short stage has a fine
+/// screw or scale (100 mm: 1 mm), and to half the range, but not below a 200th of it. 0 mm, where
+/// nothing is known of the range: as for a long one.
+std::vector<double> ripple_periods_mm(double range_mm);
 Effect linear_backlash(const kinematics::AxisGeometry& axis);
 Effect linear_reversal_spike(const kinematics::AxisGeometry& axis);
 Effect linear_lateral_play(const kinematics::AxisGeometry& axis);

@@ -18,20 +18,31 @@ std::optional<Axis> carrier_of_turning_tool(const kinematics::Chain& chain) {
     return turns ? std::optional(chain.tool.front().axis) : std::nullopt;
 }
 
+/// Where the clock of the readings starts late (a time of day, a log in the middle of a shift)
+/// nothing is known of the time before. An exponential that was counted from zero would have a size
+/// that no reading shows: 7 mm for 11 um seen an hour later.
+double drift_start_s(const DataExtent& extent, double span_s) {
+    constexpr double at_once = 0.1;  // of the time of the readings
+    return extent.start_s > at_once * span_s ? extent.start_s : 0.0;
+}
+
 }  // namespace
 
 Effect thermal_drift(const DataExtent& extent, const kinematics::Chain& chain) {
     const double span_s = std::max(600.0, extent.end_s - extent.start_s);
+    const double from_s = drift_start_s(extent, span_s);
     Effect effect{identity_of(EffectKind::thermal_drift),
                   "Tool and table drift apart slowly as the machine warms up",
                   "spindle and structure warming after switching on or a change of load",
                   "warm up before measuring; return to a reference sphere every 15 minutes",
-                  "tool tip shifted by d_mm (1 - exp(-time_s / tau_s)), in S",
+                  "tool tip shifted by d_mm (1 - exp(-(time_s - from_s) / tau_s)), in S; none before "
+                  "from_s",
                   {},
                   {}};
     for (int d = 0; d < 3; ++d) effect.parameters.push_back({"d_mm", "mm", 15e-3, d, {}, true});
     effect.parameters.push_back(
         {"tau_s", "s", 1800.0, -1, geometric_grid(span_s / 60.0, span_s * 3.0, 9), true});
+    effect.parameters.push_back({"from_s", "s", from_s, -1, {from_s}, false});
     const std::optional<Axis> carrier = carrier_of_turning_tool(chain);
     if (carrier) {
         effect.formula += "; spindle side by structure_mm (...), in M";
@@ -40,11 +51,12 @@ Effect thermal_drift(const DataExtent& extent, const kinematics::Chain& chain) {
     }
     effect.add = [carrier](const AxisSample& sample, const emulator::Contact&,
                            std::span<const double> value, kinematics::Perturbation& out) {
-        const double grown = -std::expm1(-sample.time_s / value[3]);
+        const double since_s = std::max(0.0, sample.time_s - value[4]);
+        const double grown = -std::expm1(-since_s / value[3]);
         out.tip_shift_mm += grown * Vector3(value[0], value[1], value[2]);
         if (carrier)
             out.motion[index_of(*carrier)].shift_mm +=
-                grown * Vector3(value[4], value[5], value[6]);
+                grown * Vector3(value[5], value[6], value[7]);
     };
     return effect;
 }

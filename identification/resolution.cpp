@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -59,6 +60,19 @@ double decimal_step(const std::vector<double>& values) {
 }
 
 namespace {
+
+/// The same in the units in which instruments show a value: mm and inch, or degrees, seconds of arc
+/// and radians, in which a record kept its digits before it was converted.
+double decimal_step_as_shown(const std::vector<double>& values, bool angular) {
+    const double mm[] = {1.0, 25.4}, deg[] = {1.0, 1.0 / 3600.0, deg_from_rad(1.0)};
+    double most = 0.0;
+    for (const double unit : angular ? std::span<const double>(deg) : std::span<const double>(mm)) {
+        std::vector<double> shown;
+        for (const double v : values) shown.push_back(v / unit);
+        most = std::max(most, unit * decimal_step(shown));
+    }
+    return most;
+}
 
 /// Sorts, and keeps one of values that differ by the rounding of a sum only.
 void sort_apart(std::vector<double>& values) {
@@ -157,7 +171,8 @@ Eigen::VectorXd rounding(const records::ReadingTable& table, const emulator::Rep
             values.erase(std::unique(values.begin(), values.end()), values.end());
         }
         const double spread =
-            spread_of(std::max({decimal_step(values), digit, counter_step(std::move(counts))}));
+            spread_of(std::max({log ? decimal_step(values) : decimal_step_as_shown(values, first.angular),
+                                digit, counter_step(std::move(counts))}));
         for (const std::size_t i : rows)
             spread_mm(static_cast<Eigen::Index>(i)) = first.angular ? rad_from_deg(spread) : spread;
     }

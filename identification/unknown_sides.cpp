@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <numeric>
 
 #include "effects/settings.h"
 
@@ -84,10 +85,27 @@ std::string to_string(const FoundSide& found) {
             "no row tells from which side {} came before its first motion, "
             "nor do the readings: taken as {}",
             found.axis, side);
-    return fmt::format(
+    std::string words = fmt::format(
         "before its first motion {} came travelling {} (the other side fits "
         "worse by {:.3g} in weighted squares)",
         found.axis, side, found.worse);
+    // The head line is of the first session.
+    if (found.side < 0 && found.axis.find(" of ") == std::string::npos)
+        words += fmt::format("; `predict` takes + unless the table has the line `# side = {}-`",
+                             found.axis);
+    return words;
+}
+
+std::string sides_taken_as_plus(const setup::Setup& setup, const records::ReadingTable& table) {
+    const emulator::EffectModels models = effects::active_models(setup);
+    if (models.empty()) return {};
+    const emulator::Replay replay(setup, table);
+    std::vector<std::size_t> open(replay.unknown_sides().size());
+    std::iota(open.begin(), open.end(), 0);
+    std::string names;
+    for (const FoundSide& side : seen_sides(replay, table, open, models))
+        names += (names.empty() ? "" : ", ") + side.axis;
+    return names;
 }
 
 bool sees_side(const emulator::Replay& replay, std::size_t open,

@@ -19,6 +19,11 @@ struct FoundSide {
 /// One sentence: the side assumed, and whether the readings determine it.
 std::string to_string(const FoundSide& found);
 
+/// Names of the axes (with the session if there are several) whose side before their first motion
+/// the table does not give, and on whose side an effect of the setup depends: a prediction takes +.
+/// Empty without such axes.
+std::string sides_taken_as_plus(const setup::Setup& setup, const records::ReadingTable& table);
+
 /// The effect with every linear parameter at its typical size and the keys in `values`.
 std::shared_ptr<const emulator::EffectModel> usual_model(const effects::Effect& effect,
                                                          std::vector<double> values);

@@ -138,6 +138,16 @@ Contender best_with_jump(const Searching& search, const Standing& chosen, FoldCo
     return against(rows, chosen, std::move(model));
 }
 
+/// True for the scale, a form or a ripple of positioning of an axis, but not for a play.
+bool is_positioning_of(const ColumnGroup& group, Axis axis) {
+    if (group.kind == GroupKind::table)
+        return !group.table.play && group.table.axis.axis == axis &&
+               group.table.motion == effects::EffectKind::positioning;
+    return group.effect && group.effect->axis == axis &&
+           (group.effect->kind == effects::EffectKind::scale ||
+            group.effect->kind == effects::EffectKind::cyclic);
+}
+
 /// The best model with a course of time, whole, in place of a cause: poses follow each other in
 /// time, and a course orthogonal to the textbook columns cannot do what these do.
 Contender best_with_course(const Searching& search, const Standing& chosen, FoldColumns& rows,
@@ -163,6 +173,33 @@ Contender best_with_course(const Searching& search, const Standing& chosen, Fold
         model = pruned(design, search.setting, tuned(design, search.setting, std::move(model), 3));
         Contender contender = against(rows, chosen, std::move(model));
         if (contender.ahead > best.ahead) best = std::move(contender);
+    }
+    return best;
+}
+
+/// The best model with a ripple that the places do not resolve in place of a line of positioning
+/// and of what stands beside it on the axis: few places turn a ripple into a line and a pattern,
+/// and beside the pattern the search sees no ripple.
+Contender best_with_ripple(const Searching& search, const Standing& chosen, FoldColumns& rows,
+                           std::size_t position) {
+    Design& design = search.design;
+    const ColumnGroup held = design.group(chosen.model.members[position]);
+    Contender best;
+    for (std::size_t r = 0; r < design.groups().size(); ++r) {
+        const Design::Entry& entry = design.groups()[r];
+        if (!entry.only_rival || entry.group.kind != GroupKind::periodic || !entry.group.effect ||
+            entry.group.effect->kind != effects::EffectKind::cyclic ||
+            entry.group.effect->axis != held.effect->axis || !entry.moves_readings())
+            continue;
+        Model model = chosen.model;
+        for (std::size_t k = model.members.size(); k-- > 0;)
+            if (is_positioning_of(design.group(model.members[k]), *held.effect->axis))
+                model = without(model, k);
+        model.members.push_back(r);
+        model.variances.tau.push_back(1.0);
+        model = pruned(design, search.setting, tuned(design, search.setting, std::move(model), 3));
+        Contender contender = against(rows, chosen, std::move(model));
+        if (best.model.members.empty() || contender.ahead > best.ahead) best = std::move(contender);
     }
     return best;
 }
@@ -207,6 +244,11 @@ Contender contender_of(const Searching& search, const Standing& chosen, FoldColu
             group.effect->kind == effects::EffectKind::thermal_drift) {
             Contender jump = best_with_jump(search, chosen, rows, k);
             if (jump.ahead > best.ahead) best = std::move(jump);
+        }
+        if (group.name == cause && group.kind == GroupKind::textbook &&
+            group.effect->kind == effects::EffectKind::scale) {
+            Contender ripple = best_with_ripple(search, chosen, rows, k);
+            if (ripple.ahead > best.ahead) best = std::move(ripple);
         }
         if (group.name != cause || group.kind != GroupKind::textbook || group.shape.size() > 0 ||
             group.effect->kind != effects::EffectKind::straightness)

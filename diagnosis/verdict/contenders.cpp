@@ -81,9 +81,10 @@ std::optional<Successor> successor(const Searching& search, const Standing& chos
                                    FoldColumns& rows, const Contender& contender) {
     const std::size_t most = std::max(search.setting.most_members, chosen.model.members.size());
     const std::vector<std::size_t>& members = contender.model.members;
-    // A jump is no cause: no setup can contain it. A walk also follows noise that neighbours share.
+    // A jump is no cause: no setup can contain it. A ripple that the places do not resolve is none
+    // that is claimed. A walk also follows noise that neighbours share.
     const bool barred = std::any_of(members.begin(), members.end(), [&](std::size_t m) {
-        return is_jump(search.design, m) || search.design.group(m).is_walk;
+        return search.design.groups()[m].only_rival || search.design.group(m).is_walk;
     });
     const double lost = contender.predicted < contender.spread ? 0.0 : contender.predicted;
     if (contender.ahead < std::max(better, lost) || members.size() > most || barred)

@@ -104,6 +104,12 @@ TEST_CASE("run writes the sides of its setup, predict goes by the line, without 
         for (const std::string& table : {r.told, r.untold}) {
             REQUIRE(r.bench.trunnion("predict " + table + " --setup " + r.real) == 0);
             said.push_back(values_of(r.bench.read("out.txt")));
+            const std::string notes = r.bench.read("err.txt");
+            if (table == r.told)
+                CHECK(notes.empty());
+            else
+                CHECK_THAT(notes, Catch::Contains("from which side C came") &&
+                                      Catch::Contains("taken as +"));
         }
         CHECK(farthest_mm(said[0], values_of(r.text)) < 1.5e-3);  // the noise of what was read
         // The gap turns the pivot, 75 mm from C, by 60 urad: 4.5 um where the bar lies along Y.
@@ -123,6 +129,7 @@ TEST_CASE("identify and diagnose find the side that no line tells") {
         r.answer("identify " + r.untold + with + " --effects C.backlash");
         CHECK_THAT(r.bench.read("err.txt"),
                    Catch::Contains(std::string("C came travelling ") + side));
+        CHECK((r.bench.read("err.txt").find("# side = C-") != std::string::npos) == (side == '-'));
         const nlohmann::json d = r.answer("diagnose " + r.untold + with);
         REQUIRE_FALSE(d["causes"].empty());
         CHECK(d["causes"][0]["effect"] == "C.backlash");

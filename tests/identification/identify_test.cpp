@@ -159,8 +159,11 @@ TEST_CASE("a key beyond the last one of its grid is found", "[identification]") 
     for (records::Reading& row : table.rows) row.time_s *= 20.0;
     const effects::Catalogue catalogue =
         effects::make_catalogue(setup, effects::extent_of(setup, table));
+    const auto& parameters = effects::find_effect(catalogue, "thermal.drift")->parameters;
     const std::vector<double>& grid =
-        effects::find_effect(catalogue, "thermal.drift")->parameters.back().grid;
+        std::find_if(parameters.begin(), parameters.end(), [](const auto& p) {
+            return p.name == "tau_s";
+        })->grid;
     const double tau_s = 1.3 * grid.back();
     const setup::Setup truth = campaign::with_effect(
         setup, "thermal.drift: d_mm=[0.05, 0, 0.1], tau_s=" + std::to_string(tau_s));
