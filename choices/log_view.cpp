@@ -230,6 +230,29 @@ std::string foreign_note(const records::PositionLog& log, const LogOfProgram& of
         log.path, program, names, count > 1 ? "these blocks" : "this block");
 }
 
+/// Where an axis stood before the program: the mean of the rows in which it stands first, of the
+/// earlier half of them, because the last ones may have begun to move. One row has its noise, and
+/// what the program does not set absolutely keeps it as a shift. Machines stand at round positions:
+/// the mean is one of these where its noise would hardly meet it by chance.
+double first_position(const records::PositionLog& log, Axis axis, double log_sigma) {
+    constexpr double stands = 6.0, agrees = 2.0, by_chance = 0.05;
+    const double unit = is_rotary(axis) ? rad_from_deg(1.0) : 1.0, sigma = log_sigma * unit;
+    const double first = log.rows.front().at[axis];
+    std::size_t count = 0;
+    while (count < log.rows.size() && std::abs(log.rows[count].at[axis] - first) <= stands * sigma)
+        ++count;
+    count = std::max<std::size_t>(1, count / 2);
+    double sum = 0.0;
+    for (std::size_t k = 0; k < count; ++k) sum += log.rows[k].at[axis] - first;
+    const double mean = first + sum / static_cast<double>(count);
+    const double window = agrees * sigma / std::sqrt(static_cast<double>(count));
+    for (const double step : {unit, 0.1 * unit, 0.01 * unit, 1e-3 * unit}) {
+        const double round = step * std::round(mean / step);
+        if (std::abs(mean - round) <= window && 2.0 * window <= by_chance * step) return round;
+    }
+    return mean;
+}
+
 }  // namespace
 
 const char* to_string(LogNoise noise) {
@@ -288,7 +311,9 @@ LogOfProgram log_of_program(const records::PositionLog& log,
                             ": every corner is one of the rows, so ends of moves are compared "
                             "exactly");
     }
-    if (!log.ends) out.path.start = log.rows.front().at;
+    if (!log.ends)
+        for (const Axis axis : log.axes)
+            out.path.start[axis] = first_position(log, axis, out.sigma);
     out.path.ends_only = log.ends;
     out.path.chord_mm = chord_of(out.sigma);
     if (out.view.keys == 0)

@@ -90,6 +90,13 @@ std::optional<LeftBySetUp> left_by_set_up(const setup::Setup& setup,
     }
 }
 
+/// False for values in a larger unit that agree far better with each other than any instrument of
+/// this device reads: that they became smaller is all that speaks for the unit.
+bool is_of_an_instrument(double left, const TableSlip& slip) {
+    constexpr double finest = 0.1;  // of the noise of the device (assumed)
+    return slip.factor >= 1.0 || left * slip.factor >= finest;
+}
+
 struct BestSlip {
     TableSlip slip;
     double before = 0.0, left = 0.0;  ///< in sigma of the table as it is
@@ -108,6 +115,7 @@ std::optional<BestSlip> best_slip(const setup::Setup& setup, const records::Read
         if (go_on && !go_on()) return std::nullopt;
         const auto left = left_by_set_up(setup, table, slip, before->sigma_mm);
         if (!left || left->left > rules::mistaken_left * before->left) continue;
+        if (!is_of_an_instrument(left->left, slip)) continue;
         if (!best || left->left < best->left)
             best = BestSlip{std::move(slip), before->left, left->left};
     }

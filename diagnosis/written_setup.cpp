@@ -215,13 +215,25 @@ void write_out(const Outcome& f, const Paths& paths, Written& w) {
     w.paths = {residual_of(f, none, paths.folds), residual_of(f, w.model, paths.folds)};
 }
 
-/// Members that are rather one of their rivals, or nothing: the same words as in the report.
-std::vector<std::size_t> unlikely_of(const Outcome& f, const std::vector<Claim>& claims) {
-    std::vector<std::size_t> groups;
+/// Positions of members that are rather one of their rivals, or nothing.
+std::vector<std::size_t> unlikely_of(const std::vector<Claim>& claims) {
+    std::vector<std::size_t> positions;
     for (const Claim& claim : claims)
-        if (claim.probability < rules::rather_not)
-            groups.push_back(f.model.members[claim.position]);
-    return groups;
+        if (claim.probability < rules::rather_not) positions.push_back(claim.position);
+    return positions;
+}
+
+/// The best model without a member, of those forms that may be written: what stands in the model,
+/// and textbook forms.
+std::optional<Model> instead_of_member(const Outcome& f, const Model& model, std::size_t position) {
+    const Model& other = f.found.contenders[position].model;
+    if (other.members.empty()) return std::nullopt;
+    return without_enormous(
+        f, only(f, other, [&](GroupKind kind, std::size_t m) {
+            const bool held = std::count(model.members.begin(), model.members.end(), m) > 0;
+            return (held && m != f.model.members[position]) ||
+                   (kind == GroupKind::textbook && !f.design.groups()[m].only_rival);
+        }));
 }
 
 }  // namespace
@@ -248,14 +260,19 @@ Written written_setup(const Outcome& f) {
 
 Written without_unlikely(const Outcome& f, Written written, const std::vector<Claim>& claims) {
     Model model = written.model;
-    for (const std::size_t group : unlikely_of(f, claims)) {
+    for (const std::size_t position : unlikely_of(claims)) {
+        const std::size_t group = f.model.members[position];
         const auto at = std::find(model.members.begin(), model.members.end(), group);
         if (at == model.members.end()) continue;
-        Model rest = without_enormous(
+        const BlockLoss with = loss_of(f, model, f.prepared.folds);
+        const auto is_missed = [&](const Model& rest) {
+            return !has_causes(f, rest) ||
+                   saving_of(loss_of(f, rest, f.prepared.folds), with).t >= rules::least_t;
+        };
+        std::optional<Model> rest = without_enormous(
             f, without(model, static_cast<std::size_t>(at - model.members.begin())));
-        const Saving saving =
-            saving_of(loss_of(f, rest, f.prepared.folds), loss_of(f, model, f.prepared.folds));
-        if (saving.t < rules::least_t && has_causes(f, rest)) model = std::move(rest);
+        if (is_missed(*rest)) rest = instead_of_member(f, model, position);
+        if (rest && !is_missed(*rest)) model = std::move(*rest);
     }
     if (model.members == written.model.members) return written;
     written.model = std::move(model);

@@ -109,11 +109,19 @@ CarriedTool carried_tool(const setup::Setup& setup) {
     return tool;
 }
 
-void look_for_periods_within(const DataExtent& extent, Effect& effect) {
-    if (effect.kind != EffectKind::cyclic) return;
-    for (EffectParameter& p : effect.parameters)
-        if (p.is_key() && !p.counts_periods)
-            p.grid = ripple_periods_mm(extent.most[*effect.axis] - extent.least[*effect.axis]);
+/// What depends on the range over which an axis is read: the periods of a ripple that are looked
+/// for, and the usual slope of a rotary axis. An axis that turns by a few degrees at most gets its
+/// angle from an arm or a wedge, whose gain is right by parts of its travel (assumed).
+void fit_to_range(const DataExtent& extent, Effect& effect) {
+    constexpr double small_rad = 0.3;
+    if (!effect.axis) return;
+    const double range = extent.most[*effect.axis] - extent.least[*effect.axis];
+    for (EffectParameter& p : effect.parameters) {
+        if (effect.kind == EffectKind::cyclic && p.is_key() && !p.counts_periods)
+            p.grid = ripple_periods_mm(range);
+        if (p.name == "slope_rad_per_rad" && range > 0.0 && range < small_rad)
+            p.typical *= small_rad / range;
+    }
 }
 
 }  // namespace
@@ -157,7 +165,7 @@ Catalogue make_catalogue(const setup::Setup& setup, const DataExtent& extent) {
         list.push_back(chain_flexure(chain, tool));
     }
     for (Effect& effect : list) {
-        look_for_periods_within(extent, effect);
+        fit_to_range(extent, effect);
         hide_from_encoders(effect);
     }
     return list;

@@ -34,7 +34,7 @@ struct EffectParameter {
     std::string also_set_by = {};  ///< name in files that sets several parameters to one value
     bool counts_periods = false;   ///< key: a number of periods in a turn, not a length or an angle
     int order = 0;                 ///< of a harmonic of a turn
-    bool is_part = false;          ///< a fraction of a whole: from 0 to 1
+    bool is_part = false;          ///< 1 where the effect is there, else 0; a fit may lie between
     bool is_positive = false;      ///< below zero there is none: nothing hangs upwards
     double most = std::numeric_limits<double>::infinity();  ///< size that no machine reaches
                                                             ///< (assumed), in its unit

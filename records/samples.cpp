@@ -40,7 +40,7 @@ void take_among_all(const Reading& row, AxisSample& sample) {
 class Pass {
   public:
     Pass(std::span<const Reading> all, const PassRows& rows, const AxisNames& names)
-        : all_(all), rows_(rows), names_(names) {}
+        : all_(all), rows_(rows), names_(names), stops_(is_log_of_stops()) {}
 
     void fill(const std::vector<Axis>& axes, const Chosen& chosen,
               std::vector<AxisSample>& samples) const {
@@ -108,6 +108,32 @@ class Pass {
     const Reading& row(std::size_t k) const { return all_[rows_[k]]; }
     double q(std::size_t k, Axis axis) const { return row(k).commanded[axis]; }
 
+    /// True for a log of settled positions: at a quarter of its rows or more the axis came from one
+    /// side and the next row lies on that side, too. Differences of such rows are no velocities,
+    /// and its rows stand. In a dense log few rows are turning points.
+    bool is_log_of_stops() const {
+        constexpr std::size_t least_part = 4;  // one in so many rows (assumed)
+        std::size_t count = 0, turned = 0;
+        AxisSides came{};
+        for (std::size_t k = 0; k < rows_.size(); ++k) {
+            const Reading& reading = row(k);
+            if (reading.device != Device::axis || reading.among_all || reading.velocity_mm_s)
+                continue;
+            const auto axis = names_.find(reading.feature);
+            if (!axis) continue;
+            const double rounding = names_.is_rotary(*axis) ? rows_rounding.rad : rows_rounding.mm;
+            const Neighbours around = neighbours(k);
+            signed char& side = came[index_of(*axis)];
+            if (const signed char last = sign_of(q(k, *axis) - q(around.before, *axis), rounding);
+                last != 0)
+                side = last;
+            const signed char next = sign_of(q(around.after, *axis) - q(k, *axis), rounding);
+            ++count;
+            if (side != 0 && next == -side) ++turned;
+        }
+        return turned * least_part > count;
+    }
+
     struct Neighbours {
         std::size_t before, after;
     };
@@ -123,6 +149,7 @@ class Pass {
 
     void fill_velocity(std::size_t k, const Neighbours& around, Axis axis,
                        AxisSample& sample) const {
+        if (stops_ && row(k).device == Device::axis) return;
         const double time_s = row(around.after).time_s - row(around.before).time_s;
         const double moved = q(around.after, axis) - q(around.before, axis);
         const double rounding = names_.is_rotary(axis) ? rows_rounding.rad : rows_rounding.mm;
@@ -151,6 +178,7 @@ class Pass {
 
     /// Second and third derivatives at row k from cubics through the neighbouring rows.
     void fill_curvature(std::size_t k, const std::vector<Axis>& axes, AxisSample& sample) const {
+        if (stops_ && row(k).device == Device::axis) return;
         const std::optional<Moments> around = moments(k);
         if (!around) return;
         Eigen::Matrix<double, 5, 4> a;
@@ -199,6 +227,7 @@ class Pass {
     std::span<const Reading> all_;
     const PassRows& rows_;
     const AxisNames& names_;
+    bool stops_;  ///< a log of settled positions
 };
 
 /// Sides before the first row: from the file head, for its first session.

@@ -1,6 +1,9 @@
 // Errors of any form: free forms of the error motions of every axis.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "base/units.h"
 #include "diagnosis/groups/candidate_groups.h"
@@ -37,7 +40,7 @@ constexpr Family families[] = {
     {EffectKind::tilt, true, false, true, false, 24, 12, 2}};
 constexpr std::size_t most_targets = 128;  ///< of a table with a value for each
 constexpr double whole_turn_rad = 5.0;     ///< a wider range counts as a whole turn
-constexpr double least_range_mm = 1.0, least_range_rad = 0.05;
+constexpr double least_range_mm = 1.0, least_range_rad = 1e-3;
 constexpr int last_order = 24;
 /// Of an angle sensor, read at many places: interpolation errors stand at multiples of its lines.
 constexpr int last_order_of_sensor = 120;
@@ -76,27 +79,43 @@ bool has_slope(const Prepared& p, const Family& family, Axis axis) {
                                  [](const auto& q) { return q.name == "slope_rad_per_rad"; });
 }
 
+/// First harmonic of a positioning with a slope that belongs to its textbook form. Over less than
+/// most of its period a harmonic is a bow, which the textbook form has only with large harmonics
+/// that cancel: it stays in the table.
+int first_owned(const Family& family, const std::vector<double>& knots, bool sloped) {
+    constexpr double most_of_period = 0.75;
+    if (!sloped) return 1;
+    const double turns = (knots.back() - knots.front()) / (2.0 * pi);
+    int n = 1;
+    while (n <= family.owned && n * turns < most_of_period) ++n;
+    return n;
+}
+
 /// The textbook form at the knots: polynomials, or harmonics of part of a turn. A slope that the
 /// textbook form lacks stays in the table.
 Eigen::MatrixXd owned_at(const Prepared& p, const Family& family, const TableForm& table) {
     const std::vector<double>& knots = table.knots;
     if (!family.rotary) return estimation::polynomials_at(knots, family.owned);
-    const int powers = has_slope(p, family, table.axis.axis) ? 2 : 1;
-    Eigen::MatrixXd owned(static_cast<Eigen::Index>(knots.size()), powers + 2 * family.owned);
+    const bool sloped = has_slope(p, family, table.axis.axis);
+    const int powers = sloped ? 2 : 1, first = first_owned(family, knots, sloped);
+    Eigen::MatrixXd owned(static_cast<Eigen::Index>(knots.size()),
+                          powers + 2 * (family.owned - first + 1));
     owned.leftCols(powers) = estimation::polynomials_at(knots, powers);
     for (std::size_t k = 0; k < knots.size(); ++k)
-        for (int n = 1; n <= family.owned; ++n) {
-            const Eigen::Index at = powers + 2 * (n - 1);
+        for (int n = first; n <= family.owned; ++n) {
+            const Eigen::Index at = powers + 2 * (n - first);
             owned(static_cast<Eigen::Index>(k), at) = std::cos(n * knots[k]);
             owned(static_cast<Eigen::Index>(k), at + 1) = std::sin(n * knots[k]);
         }
     return owned;
 }
 
-/// A shape of one direction and its share of the free form's prior.
+/// A shape of one direction and its share of the free form's prior. What has a component of its own
+/// may stand beside other shapes.
 struct Shape {
     Eigen::MatrixXd columns;
     double log_prior = 0.0;
+    std::string component = {};
 };
 
 /// `owned`: the textbook form at the knots. `each`: one of the shapes has a value of its own at
@@ -130,13 +149,14 @@ Eigen::MatrixXd harmonics_of(const TableForm& table, const std::vector<double>& 
     return shape * std::sqrt(2.0) / shape.norm();
 }
 
-/// A single harmonic: poles of a resolver, lobes of a bearing. They share half of the prior.
+/// A single harmonic: poles of a resolver, lobes of a bearing. They share half of the prior. Poles
+/// that are uneven have overtones: one order stands beside another, and beside a curve.
 std::vector<Shape> single_harmonics(const TableForm& table, int count) {
     std::vector<Shape> shapes;
     for (int n = 0; n < count; ++n)
         shapes.push_back(
             {Eigen::MatrixXd::Identity(2 * table.orders, 2 * table.orders).middleCols(2 * n, 2),
-             -std::log(2.0 * count)});
+             -std::log(2.0 * count), fmt::format("order {}", table.first_order + n)});
     return shapes;
 }
 
@@ -162,8 +182,9 @@ std::vector<Shape> shapes_of_turn(const Prepared& p, const TableForm& table) {
     return shapes;
 }
 
-/// The places at which readings see the play from both sides, if these are most of them; where most
-/// were visited again, from each side twice: one spoiled reading must not make a play. Elsewhere it
+/// The places at which readings see the play from both sides, if these are most of them and four at
+/// least; where most were visited again, from each side twice: one spoiled reading must not make a
+/// play. Two and three places must be seen three times from each side. Elsewhere it
 /// cannot be told from positioning, and is that of the nearest such places.
 std::vector<double> places_of_play(const Prepared& p, const TableForm& table,
                                    const std::vector<double>& places) {
@@ -181,10 +202,13 @@ std::vector<double> places_of_play(const Prepared& p, const TableForm& table,
         std::vector<double> list;
         for (std::size_t k = 0; k < places.size(); ++k)
             if (std::min(forward[k], back[k]) >= times) list.push_back(places[k]);
-        return list.size() >= 4 && 2 * list.size() >= places.size() ? list : std::vector<double>{};
+        const std::size_t least = times > 2 ? 2 : 4;  // what repeats again and again is no chance
+        return list.size() >= least && 2 * list.size() >= places.size() ? list
+                                                                        : std::vector<double>{};
     };
-    const std::vector<double> twice = seen_from_both(2);
-    return twice.empty() ? seen_from_both(1) : twice;
+    for (const int times : {2, 1, 3})
+        if (auto list = seen_from_both(times); !list.empty()) return list;
+    return {};
 }
 
 /// The targets of a laser or an autocollimator, if they were visited again; else none. Other
@@ -248,8 +272,9 @@ TableForm form_of(const Prepared& p, const Family& family, const kinematics::Axi
 }
 
 /// The bow of positions and of angles is a table already; that of other motions is in their
-/// textbook form.
+/// textbook form. A play differs between two places.
 std::size_t least_knots(const Family& family) {
+    if (family.motion == EffectKind::backlash) return 2;
     const bool bow_is_table =
         family.motion == EffectKind::positioning || family.motion == EffectKind::angular;
     return bow_is_table ? 3 : 4;
@@ -291,6 +316,7 @@ void add_table(Design& design, const Prepared& p, const Whitener& whitener, cons
     for (const Shape& shape : shapes) {
         ColumnGroup group = group_of(shape.columns);
         group.log_prior = rules::table_prior + family.log_prior + shape.log_prior;
+        group.component = shape.component;
         design.add(std::move(group));
     }
     if (table.knots.empty()) return;

@@ -15,7 +15,8 @@ std::optional<Axis> measured_axis(const emulator::Replay& replay,
                                   const records::ReadingTable& table);
 
 /// Number of the cycle of each device row, from 0 on over all tests. A new one begins with a test
-/// and where the axis starts again from the side of the first reading. Empty where other readings
+/// and where the axis starts again from the side of the first reading, after half of the targets of
+/// its test at least. Empty where other readings
 /// are present, or more than one axis moves.
 std::vector<Eigen::Index> cycles_of(const emulator::Replay& replay,
                                     const records::ReadingTable& table);

@@ -50,7 +50,9 @@ Saving sum_of(const std::vector<double>& saved) {
     const double mean = sum / result.blocks;
     for (const double d : saved) square += (d - mean) * (d - mean);
     const double error = std::sqrt(square / (result.blocks - 1.0) / result.blocks);
-    result.t = error > 0.0 ? mean / error : 0.0;
+    // Blocks of readings that repeat to the last digit all save the same.
+    constexpr double finest = 1e-6;  // of the mean: arithmetic
+    if (mean != 0.0) result.t = mean / std::max(error, finest * std::abs(mean));
     result.spread = error * result.blocks;
     return result;
 }

@@ -228,10 +228,11 @@ Model empty_model(Design& design, const SearchSetting& setting) {
 namespace {
 
 /// True where the fit gives a parameter a size that it cannot have: no control rounds its positions
-/// by 500 times the increment, no table rises under its weight, and no axis lags by seconds on a
-/// circle, whatever this explains. `mean`: of the members' coefficients.
+/// by 500 times the increment, or by a tenth of it, no table rises under its weight, and no axis
+/// lags by seconds on a circle, whatever this explains. `mean`: of the members' coefficients.
 bool is_impossible(const Design& design, const Model& model, const Eigen::VectorXd& mean) {
-    constexpr double beyond = 0.2;  // of the range or the usual size: noise may lead out of it
+    constexpr double beyond = 0.2;      // of the range or the usual size: noise may lead out of it
+    constexpr double least_part = 0.4;  // of what is so or is not: a form that resembles it
     Eigen::Index at = 0;
     for (const std::size_t m : model.members) {
         const ColumnGroup& group = design.group(m);
@@ -241,7 +242,7 @@ bool is_impossible(const Design& design, const Model& model, const Eigen::Vector
         for (std::size_t j = 0; j < group.parameters.size(); ++j) {
             const effects::EffectParameter& p = group.effect->parameters[group.parameters[j]];
             const double usual = value(static_cast<Eigen::Index>(j)), part = p.typical * usual;
-            if (p.is_part && (part < -beyond || part > 1.0 + beyond)) return true;
+            if (p.is_part && (part < least_part || part > 1.0 + beyond)) return true;
             if (p.is_positive && usual < -beyond) return true;
             if (std::abs(part) > p.most) return true;
         }

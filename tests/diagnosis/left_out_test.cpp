@@ -125,7 +125,7 @@ TEST_CASE("with nothing to fit the readings themselves are left", "[diagnosis]")
     CHECK(left.loss({}, {}).mean() == Approx(data.squaredNorm() / rows));
 }
 
-TEST_CASE("what all blocks save alike has no t, and one block says nothing", "[diagnosis]") {
+TEST_CASE("what all blocks save alike is certain, and one block says nothing", "[diagnosis]") {
     CHECK(diagnosis::BlockLoss{}.mean() == 0.0);
     const std::vector<double> rows{2.0, 2.0, 2.0};
     const diagnosis::BlockLoss without{{5.0, 6.0, 7.0}, rows};
@@ -133,7 +133,10 @@ TEST_CASE("what all blocks save alike has no t, and one block says nothing", "[d
     const diagnosis::Saving alike = saving_of(without, {{4.0, 5.0, 6.0}, rows});
     CHECK(alike.sum == Approx(3.0));
     CHECK(alike.blocks == 3.0);
-    CHECK(alike.t == 0.0);
+    // Readings that repeat to their last digit: all blocks are the same.
+    CHECK(alike.t > 1e3);
+    CHECK(saving_of({{4.0, 5.0, 6.0}, rows}, without).t < -1e3);
+    CHECK(saving_of(without, without).t == 0.0);
     const diagnosis::Saving single = saving_of(without, {{2.0, 6.0, 7.0}, rows});
     CHECK(single.sum == Approx(3.0));
     CHECK(single.blocks == 1.0);

@@ -1,4 +1,5 @@
 // What holds for every effect: linear in its sizes, sound at the limits of its keys.
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "records/samples.h"
@@ -65,6 +66,56 @@ TEST_CASE("pivot parameters are spoken of where a control has them", "[effects]"
                                                           !Catch::Contains("pivot") &&
                                                           !Catch::Contains("control"));
     CHECK_THAT(remedy("w C b X t", {"C"}), !Catch::Contains("pivot"));
+}
+
+TEST_CASE("the periods of a ripple fit the range that was read", "[effects]") {
+    const auto limits = [](double range_mm) {
+        const std::vector<double> grid = effects::ripple_periods_mm(range_mm);
+        for (std::size_t k = 1; k < grid.size(); ++k) {
+            CHECK(grid[k] > grid[k - 1]);
+            CHECK(grid[k] < 1.015 * grid[k - 1]);
+        }
+        return std::pair(grid.front(), grid.back());
+    };
+    for (const double range_mm : {0.0, 200.0, 200.1, 900.0}) {
+        CHECK(limits(range_mm).first == Approx(4.0));
+        CHECK(limits(range_mm).second == Approx(50.0));
+    }
+    CHECK(limits(199.9).first == Approx(4.0).epsilon(0.01));
+    CHECK(limits(100.0).first == Approx(1.0));
+    CHECK(limits(40.0).first == Approx(0.2));
+    CHECK(limits(40.0).second == Approx(20.0));
+    CHECK(limits(1e-3).first == Approx(5e-6));
+}
+
+TEST_CASE("a drift counts from the first reading where the clock starts late", "[effects]") {
+    const Physics physics;
+    const auto from_s = [&](double start_s) {
+        effects::DataExtent extent;
+        extent.start_s = start_s;
+        extent.end_s = start_s + 1000.0;
+        const effects::Effect drift =
+            *effects::find_effect(effects::make_catalogue(physics.setup, extent), "thermal.drift");
+        const auto at =
+            std::find_if(drift.parameters.begin(), drift.parameters.end(),
+                         [](const effects::EffectParameter& p) { return p.name == "from_s"; });
+        REQUIRE(at != drift.parameters.end());
+        return at->typical;
+    };
+    CHECK(from_s(0.0) == 0.0);
+    CHECK(from_s(100.0) == 0.0);  // a tenth of the time: the program that was started
+    CHECK(from_s(101.0) == 101.0);
+    CHECK(from_s(36000.0) == 36000.0);
+    const auto miss = [&](double before_s) {
+        return physics.miss(
+            "thermal.drift: d_mm=[0, 0, 0.02], tau_s=1, from_s=" + std::to_string(before_s),
+            [](const Seen&) {
+                return tip({0, 0, 0.02});
+            },
+            [](const Seen& s) { return s.row->time_s > 100.0; });
+    };
+    CHECK(miss(0.0) < 1e-6);
+    CHECK(miss(1e7) > 0.99);  // none before it begins
 }
 
 TEST_CASE("time constants, pitches and decays at their limits", "[effects]") {
