@@ -103,10 +103,14 @@ void add_keyed(Design& design, const Prepared& p, const Whitener& whitener,
     const effects::Effect* last = nullptr;
     for (const KeyedEffect& keyed : list) {
         const bool first = std::exchange(last, keyed.effect) != keyed.effect;
-        if (add_ripple_or_other(design, p, whitener, *keyed.effect, keyed.keys) || !first) continue;
+        const auto sharp =
+            first ? period_at_few_places(p, *keyed.effect, keyed.keys, rest_mm) : std::nullopt;
+        const std::vector<double>& keys = sharp ? *sharp : keyed.keys;
+        if (add_ripple_or_other(design, p, whitener, *keyed.effect, keys) || !first) continue;
         add_unresolved_ripple(
             design, p, whitener, *keyed.effect,
-            identification::refine_keys(p.replay, p.base, *keyed.effect, keyed.keys, rest_mm));
+            sharp ? keys
+                  : identification::refine_keys(p.replay, p.base, *keyed.effect, keys, rest_mm));
     }
 }
 
@@ -146,7 +150,8 @@ Model with_refined_keys(Design& design, const SearchSetting& setting, const Prep
     return trial.score > model.score ? trial : model;
 }
 
-/// Adds ripples of an axis in place of its free-form positioning error, which may imitate them.
+/// Adds ripples of an axis in place of its free-form positioning error, which may imitate them,
+/// alone and together with its scale.
 void add_ripples_instead(Design& design, const Prepared& p, const Whitener& whitener, Rests& rests,
                          const Model& model) {
     for (std::size_t k = 0; k < model.members.size(); ++k) {
@@ -157,11 +162,24 @@ void add_ripples_instead(Design& design, const Prepared& p, const Whitener& whit
         const effects::Effect* ripple =
             effects::find_effect(p.catalogue, effects::EffectKind::cyclic, group.table.axis.axis);
         if (!ripple || modelled(p, *ripple)) continue;
-        const Rests::Rest rest = rests.of(without(model, k));
-        std::vector<KeyedEffect> list;
-        for (auto& setting : rests.keys().best(*ripple, rest.remainder, first_keys))
-            list.push_back({ripple, std::move(setting)});
-        add_keyed(design, p, whitener, list, rest.mm);
+        const auto is_line = [&](std::size_t m) {
+            const ColumnGroup& other = design.group(m);
+            return other.kind == GroupKind::textbook && other.effect->axis == ripple->axis &&
+                   other.effect->kind == effects::EffectKind::scale;
+        };
+        Model rest_of_axis = without(model, k);
+        for (bool both = false;; both = true) {
+            const Rests::Rest rest = rests.of(rest_of_axis);
+            std::vector<KeyedEffect> list;
+            for (auto& setting : rests.keys().best(*ripple, rest.remainder, first_keys))
+                list.push_back({ripple, std::move(setting)});
+            add_keyed(design, p, whitener, list, rest.mm);
+            const auto line =
+                std::find_if(rest_of_axis.members.begin(), rest_of_axis.members.end(), is_line);
+            if (both || line == rest_of_axis.members.end()) break;
+            rest_of_axis = without(rest_of_axis,
+                                   static_cast<std::size_t>(line - rest_of_axis.members.begin()));
+        }
     }
 }
 

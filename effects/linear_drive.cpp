@@ -10,13 +10,17 @@ namespace trunnion::effects {
 
 std::vector<double> ripple_periods_mm(double range_mm) {
     constexpr double least_mm = 4.0, most_mm = 50.0, long_mm = 200.0, finest = 1.0 / 200.0;
-    constexpr double step = 1.0142;  // between two periods, as 180 of them from 4 to 50 mm
     if (range_mm <= 0.0 || range_mm >= long_mm) return geometric_grid(least_mm, most_mm, 180);
     const double part = range_mm / long_mm;
     const double low_mm = std::max(least_mm * part * part, finest * range_mm);
     const double high_mm = std::min(most_mm, 0.5 * range_mm);
-    return geometric_grid(low_mm, high_mm,
-                          1 + static_cast<int>(std::ceil(std::log(high_mm / low_mm) / std::log(step))));
+    // Between two of them lies an eighth of a cycle at the ends: at few places a rough period loses
+    // against chance.
+    const double step = 0.25 / range_mm;  // cycles per mm
+    const auto count = static_cast<int>(std::ceil((1.0 / low_mm - 1.0 / high_mm) / step));
+    std::vector<double> grid_mm;
+    for (int k = count; k >= 0; --k) grid_mm.push_back(1.0 / (1.0 / high_mm + k * step));
+    return grid_mm;
 }
 
 Effect linear_cyclic(const kinematics::AxisGeometry& axis) {

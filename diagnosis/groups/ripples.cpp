@@ -7,6 +7,8 @@
 #include "base/units.h"
 #include "diagnosis/prepare/places.h"
 #include "diagnosis/rules/rules.h"
+#include "identification/identify.h"
+#include "identification/key_gain.h"
 
 namespace trunnion::diagnosis {
 namespace {
@@ -230,6 +232,32 @@ double chance_of_period(const Prepared& prepared, const effects::Effect& effect,
     double periods = ripple->counts ? *most : range / *least;
     if (step > 0.0) periods = std::min(periods, 0.5 * (range / step + 1.0));
     return std::min(1.0, periods * std::pow(1.0 - part, free));
+}
+
+std::optional<std::vector<double>> period_at_few_places(const Prepared& prepared,
+                                                        const effects::Effect& effect,
+                                                        std::vector<double> keys,
+                                                        const Eigen::VectorXd& rest_mm) {
+    constexpr double steps_per_cycle = 16.0;    // from end to end of the range
+    constexpr std::size_t most_readings = 500;  // more of them are seldom at few places
+    const auto ripple = ripple_of(effect, keys);
+    if (!ripple || ripple->counts || prepared.replay.size() > most_readings) return std::nullopt;
+    const std::vector<double> places = places_for(prepared, ripple->axis);
+    if (places.size() < least_places || places.size() >= many_on_grid) return std::nullopt;
+    const identification::KeyGain gain(prepared.replay, prepared.base, rest_mm);
+    const auto [least, most] = std::minmax_element(ripple->offered.begin(), ripple->offered.end());
+    const double step = 1.0 / (steps_per_cycle * (places.back() - places.front()));
+    double best = gain(effect, keys);
+    for (double frequency = 1.0 / *most; frequency <= 1.0 / *least; frequency += step) {
+        std::vector<double> trial = keys;
+        trial[ripple->key] = 1.0 / frequency;
+        if (const double value = gain(effect, trial); value > best) {
+            best = value;
+            keys = std::move(trial);
+        }
+    }
+    return identification::refine_keys(prepared.replay, prepared.base, effect, std::move(keys),
+                                       rest_mm);
 }
 
 void add_unresolved_ripple(Design& design, const Prepared& prepared, const Whitener& whitener,

@@ -47,6 +47,14 @@ std::size_t place_count(const Prepared& prepared, Axis axis);
 bool may_be_usual(const effects::Effect& effect, const std::vector<double>& keys,
                   const std::vector<double>& others);
 
+/// The keys of a ripple of a linear axis at few places (8 to 23) that explain most of `rest_mm`
+/// (device rows), of all periods: near a rough one, chance wins over what is there. Empty for other
+/// effects, more places, or more than 500 readings.
+std::optional<std::vector<double>> period_at_few_places(const Prepared& prepared,
+                                                        const effects::Effect& effect,
+                                                        std::vector<double> keys,
+                                                        const Eigen::VectorXd& rest_mm);
+
 /// Adds a ripple that the positions of its axis do not resolve as a possible rival: no model
 /// contains it, but what another effect explains may be this one. Not for fewer than 8 positions,
 /// where some ripple fits any error.

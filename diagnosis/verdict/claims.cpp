@@ -118,7 +118,8 @@ void name_contender(Design& design, const Model& model, const Contender& contend
         name_rival(design, k, claim);
     for (const std::size_t k : contender.model.members) {
         const ColumnGroup& group = design.group(k);
-        if (group.kind == GroupKind::spoiled) name_rival(design, k, claim);
+        // A spoiled visit, a jump, a ripple that the places do not resolve.
+        if (design.groups()[k].only_rival) name_rival(design, k, claim);
         const bool held = std::any_of(model.members.begin(), model.members.end(),
                                       [&](auto m) { return same_cause(design.group(m), group); });
         if (group.is_whole && group.of_time && !held) add_rival(machine_drift, claim);

@@ -329,4 +329,22 @@ TEST_CASE("a log of samples: the control may have started before the first row")
     CHECK(log_bench::has_note(gap, "started at its machine zero"));
 }
 
+TEST_CASE("a log of samples: noise of the first rows is no shift of what the program moves") {
+    const std::string relative =
+        "N10 G21 G91 G0 X5.\nN20 X7. Y3.\nN30 G1 Y9. F300\nN40 X2.\nN50 M30\n";
+    for (const unsigned seed : {1u, 2u, 3u, 4u, 5u, 6u}) {
+        SampledLog log({0, 0, 0});
+        for (int k = 0; k < 40; ++k) log.add(10, {0, 0, 0});  // the machine stands
+        log.to(10, {5, 0, 0}, 0.7);
+        log.to(20, {12, 3, 0}, 0.7);
+        log.to(30, {12, 12, 0}, 0.7);
+        log.to(40, {14, 12, 0}, 0.7);
+        SeededNoise noise(seed);
+        for (records::LoggedPosition& row : log.log.rows)
+            for (const Axis axis : log.log.axes) row.at[axis] += 0.003 * noise.next();
+        INFO(seed);
+        CHECK(verdict(log.log, relative) == GapVerdict::no_gap);
+    }
+}
+
 }  // namespace trunnion

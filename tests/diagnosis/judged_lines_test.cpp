@@ -211,6 +211,25 @@ TEST_CASE("the screw of a short stage has its ripple", "[diagnosis]") {
     }
 }
 
+TEST_CASE("a ripple at few targets far apart is a rival of the line that it looks like",
+          "[diagnosis]") {
+    // Five pairs of places 10.2 mm apart: a ripple of 2 mm falls along them.
+    std::vector<double> at;
+    for (int k = 0; k < 5; ++k)
+        for (const double more_mm : {0.0, 0.2}) at.push_back(15.0 + 10.2 * k + more_mm);
+    Readings r{false, at, [&](std::size_t k, int) { return 0.021 * std::cos(pi * at[k]); }, 2.6e-5};
+    r.read_runs(5);
+    const diagnosis::Diagnosis d = r.diagnosed();
+    INFO(said(d));
+    CHECK(probability_of(d, "X.scale") < 0.5);
+    bool named = false;
+    for (const diagnosis::Cause& c : d.causes)
+        named = named || c.effect == "X.cyclic" ||
+                std::count(c.rivals.begin(), c.rivals.end(), "X.cyclic") > 0;
+    CHECK(named);
+    CHECK(d.verdict != diagnosis::Verdict::explained);
+}
+
 TEST_CASE("deviations of a tenth of a micrometre are in their unit", "[diagnosis]") {
     Readings r{
         false, evenly(0.0, 60.0, 12),

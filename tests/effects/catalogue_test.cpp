@@ -72,8 +72,10 @@ TEST_CASE("the periods of a ripple fit the range that was read", "[effects]") {
     const auto limits = [](double range_mm) {
         const std::vector<double> grid = effects::ripple_periods_mm(range_mm);
         for (std::size_t k = 1; k < grid.size(); ++k) {
-            CHECK(grid[k] > grid[k - 1]);
-            CHECK(grid[k] < 1.015 * grid[k - 1]);
+            REQUIRE(grid[k] > grid[k - 1]);
+            // From end to end a quarter of a cycle more; of long ways the search looks between.
+            if (range_mm > 0.0 && range_mm < 200.0)
+                REQUIRE(range_mm / grid[k - 1] - range_mm / grid[k] < 0.2501);
         }
         return std::pair(grid.front(), grid.back());
     };
@@ -82,10 +84,10 @@ TEST_CASE("the periods of a ripple fit the range that was read", "[effects]") {
         CHECK(limits(range_mm).second == Approx(50.0));
     }
     CHECK(limits(199.9).first == Approx(4.0).epsilon(0.01));
-    CHECK(limits(100.0).first == Approx(1.0));
-    CHECK(limits(40.0).first == Approx(0.2));
+    CHECK(limits(100.0).first == Approx(1.0).epsilon(0.01));
+    CHECK(limits(40.0).first == Approx(0.2).epsilon(0.01));
     CHECK(limits(40.0).second == Approx(20.0));
-    CHECK(limits(1e-3).first == Approx(5e-6));
+    CHECK(limits(1e-3).first == Approx(5e-6).epsilon(0.01));
 }
 
 TEST_CASE("a drift counts from the first reading where the clock starts late", "[effects]") {

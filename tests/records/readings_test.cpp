@@ -268,6 +268,41 @@ TEST_CASE("logs that were taken at the same time are passes of their own") {
     }
 }
 
+TEST_CASE("settled positions of a log stand on the side from which they came") {
+    const auto logged = [](const std::vector<double>& at_mm) {
+        records::ReadingTable table;
+        table.axes = {Axis::X};
+        for (const double x_mm : at_mm) {
+            records::Reading row;
+            row.time_s = 3.0 * static_cast<double>(table.rows.size());
+            row.test = "log";
+            row.device = records::Device::axis;
+            row.feature = "X";
+            row.commanded[Axis::X] = x_mm;
+            row.value_mm = 0.0;
+            table.rows.push_back(row);
+        }
+        return records::samples_of(table);
+    };
+    const std::size_t x = index_of(Axis::X);
+    // Up and down in turn: each row is followed by a move back, or by another one.
+    const auto stops = logged({0, 30, 30, -30, 20, 30, 20, -10, -10, 10, 0});
+    const int side[] = {0, 1, 1, -1, 1, 1, -1, -1, -1, 1, -1};
+    for (std::size_t k = 1; k < stops.size(); ++k) {
+        INFO(k);
+        CHECK(stops[k].travel[x] == side[k]);
+        CHECK(stops[k].velocity[Axis::X] == 0.0);
+        CHECK(stops[k].acceleration[Axis::X] == 0.0);
+    }
+    // A dense log turns seldom: its differences are speeds, and a turning point has no side.
+    std::vector<double> wave;
+    for (int k = 0; k <= 40; ++k) wave.push_back(10.0 * std::cos(2.0 * pi * k / 20.0));
+    const auto dense = logged(wave);
+    CHECK(dense[5].velocity[Axis::X] < -0.5);
+    CHECK(dense[10].travel[x] == 0);
+    CHECK(dense[12].travel[x] == 1);
+}
+
 TEST_CASE("an exact turning point says nothing about reversal") {
     const auto samples = records::samples_of(read(circle(0.0, 1.0, 40)));
     CHECK(samples[20].travel[index_of(Axis::X)] == 0);  // x = -100
