@@ -229,7 +229,9 @@ double chance_of_period(const Prepared& prepared, const effects::Effect& effect,
     if (free <= 0.0) return 1.0;
     const auto [least, most] = std::minmax_element(ripple->offered.begin(), ripple->offered.end());
     const double range = places.back() - places.front(), step = step_of(places);
-    double periods = ripple->counts ? *most : range / *least;
+    // Between two periods that are independent of each other the best one fits better.
+    constexpr double between = 3.0;
+    double periods = ripple->counts ? *most : between * range / *least;
     if (step > 0.0) periods = std::min(periods, 0.5 * (range / step + 1.0));
     return std::min(1.0, periods * std::pow(1.0 - part, free));
 }

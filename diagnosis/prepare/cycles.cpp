@@ -38,12 +38,12 @@ void number_cycles(const emulator::Replay& replay, Axis axis, const RowsOfTest& 
     const auto [low, high] = std::minmax_element(all.begin(), all.end());
     const std::size_t places = count_of_places(all), enough = (places + 1) / 2;
     const double near = 0.5 * (*high - *low) / static_cast<double>(places);
-    const auto was_passed = [&](double q) {
-        const auto [least, most] = std::minmax_element(seen.begin(), seen.end());
-        return q > *least - near && q < *most + near;
-    };
     const int start =
         replay.sample(rows.first).travel[index_of(axis)];  // side of the first reading
+    const auto goes_on = [&](double q) {                   // ahead of all that was seen
+        return std::all_of(seen.begin(), seen.end(),
+                           [&](double s) { return (q - s) * start > near; });
+    };
     for (std::size_t i = rows.first; i < rows.end; ++i) {
         const int side = replay.sample(i).travel[index_of(axis)];
         if (i > rows.first) {
@@ -51,7 +51,7 @@ void number_cycles(const emulator::Replay& replay, Axis axis, const RowsOfTest& 
             if (is_rotary(axis)) step = std::remainder(step, 2.0 * pi);  // 180 and -180 deg are one
             const bool turned = replay.sample(i - 1).travel[index_of(axis)] != side;
             const bool again = side == start && (turned || step * side < 0.0);
-            if (again && count_of_places(seen) >= enough && was_passed(at(i))) {
+            if (again && count_of_places(seen) >= enough && !goes_on(at(i))) {
                 ++number;
                 seen.clear();
             }

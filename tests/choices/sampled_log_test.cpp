@@ -341,7 +341,7 @@ TEST_CASE("a log of samples: noise of the first rows is no shift of what the pro
         log.to(40, {14, 12, 0}, 0.7);
         SeededNoise noise(seed);
         for (records::LoggedPosition& row : log.log.rows)
-            for (const Axis axis : log.log.axes) row.at[axis] += 0.003 * noise.next();
+            for (const Axis axis : log.log.axes) row.at[axis] += 0.003 * noise.normal();
         INFO(seed);
         CHECK(verdict(log.log, relative) == GapVerdict::no_gap);
     }
