@@ -51,17 +51,12 @@ GapVerdict verdict_of(const ControlGap& gap, bool whole) {
     return rivals ? GapVerdict::ambiguous : GapVerdict::explained;
 }
 
-/// Adds a structured gap that no row of the tables explains; it is as sure as there are blocks with
-/// it.
-void add_unknown(ControlGap& gap, std::size_t blocks) {
-    GapCause cause;
+/// Adds a structured gap that no row of the tables explains, with its share and its places; it is
+/// as sure as there are blocks with it.
+void add_unknown(ControlGap& gap, std::size_t blocks, GapCause cause) {
     cause.name = "unknown";
     cause.known = false;
-    cause.what = "no choice and no store in the tables explains what stays";
-    cause.share = 1.0 - gap.explained;
     cause.blocks = blocks;
-    cause.first = gap.first;
-    cause.worst = gap.worst;
     cause.probability = 1.0;
     cap_probability(cause, 1.0);
     gap.causes.push_back(cause);
@@ -86,6 +81,27 @@ void tell_base(const LogOfProgram& log, const ComparedRun& base, const Teller& t
                         base.path.alarm->where.line);
     gap.after_rms_um = gap.rms_um;
     tell_rest(log.view, base, gap.notes);
+}
+
+/// No cause is claimed: all of the gap is unknown, whatever a doubtful one would remove.
+GapCause nothing_explains(const ControlGap& gap) {
+    GapCause out;
+    out.what = "no choice and no store in the tables explains the gap";
+    out.share = 1.0;
+    out.first = gap.first;
+    out.worst = gap.worst;
+    return out;
+}
+
+/// Beside the causes that are claimed.
+GapCause what_stays(const ControlGap& gap, const ComparedRun& run, const Judged& by) {
+    GapCause out;
+    out.what = "no choice and no store in the tables explains what stays";
+    out.share = 1.0 - gap.explained;
+    const auto is_far = [&](std::size_t row) { return run.losses[row] > by.row_limit; };
+    out.first = by.teller.first(run, is_far);
+    out.worst = by.teller.worst(run, [](std::size_t) { return true; });
+    return out;
 }
 
 void tell_causes(const GapQuestion& question, const GapSearch& found, const ComparedRun& base,
@@ -113,9 +129,10 @@ void tell_causes(const GapQuestion& question, const GapSearch& found, const Comp
     for (const GapBlock& block : by.teller.where(found.run, excess))
         if (block.share > least_left || (!whole && block.p_value < surely_more))
             gap.left.push_back(block);
-    if (gap.verdict == GapVerdict::unexplained ||
-        (gap.verdict == GapVerdict::partly_explained && !whole))
-        add_unknown(gap, gap.verdict == GapVerdict::unexplained ? gap.blocks : gap.left.size());
+    if (gap.verdict == GapVerdict::unexplained)
+        add_unknown(gap, gap.blocks, nothing_explains(gap));
+    else if (gap.verdict == GapVerdict::partly_explained && !whole)
+        add_unknown(gap, gap.left.size(), what_stays(gap, found.run, by));
     gap.unseen = found.unseen;
 }
 
@@ -215,8 +232,9 @@ Answer judged(const Asked& asked, LogOfProgram log) {
     };
     if (!quiet) found = beside_far_blocks(search, std::move(found), limit(), question.watch);
     // Within the noise no row shows whether it is reached: their means do.
-    const Judged by{comparer, teller, blocks,
-                    base.loss - (quiet ? found.run.loss : teller.noise_loss()), limit()};
+    const Judged by{comparer, teller,
+                    blocks,   base.loss - (quiet ? found.run.loss : teller.noise_loss()),
+                    limit(),  beside_remainder(log, base, found.run, blocks, limit())};
     tell_causes(question, found, base, by, gap);
     if (quiet && (!is_convincing(gap) || p_of_shift(log.view, found.run, blocks, alike) < chance))
         take_back(question, gap);
@@ -293,9 +311,9 @@ void tell_foreign(std::size_t blocks, ControlGap& gap) {
     if (blocks == 0 || is_left(gap)) return;
     gap.verdict =
         gap.verdict == GapVerdict::no_gap ? GapVerdict::unexplained : GapVerdict::partly_explained;
-    add_unknown(gap, blocks);
-    gap.causes.back().what = "the log has blocks that the program lacks";
-    gap.causes.back().share = 0.0;
+    GapCause cause;
+    cause.what = "the log has blocks that the program lacks";
+    add_unknown(gap, blocks, std::move(cause));
 }
 
 }  // namespace
