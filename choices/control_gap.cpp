@@ -20,6 +20,7 @@
 #include "choices/offset_words.h"
 #include "choices/row_fit.h"
 #include "choices/small_shift.h"
+#include "choices/trace_of_ends.h"
 #include "controller/alarms.h"
 #include "estimation/distributions.h"
 
@@ -318,6 +319,20 @@ void tell_foreign(std::size_t blocks, ControlGap& gap) {
 
 }  // namespace
 
+namespace {
+
+/// A log that does not tell ends of moves from samples may have ends only: as samples, what they
+/// show of short moves would not be seen.
+records::PositionLog log_as_meant(const Asked& asked) {
+    const records::PositionLog& log = asked.question.log;
+    if (log.ends) return log;
+    records::PositionLog trace = as_trace(log);
+    const LogOfProgram of = log_of_program(trace, asked.texts, asked.question.max_blocks);
+    return seems_trace(of, asked.comparer(of).run(asked.question.setup)) ? trace : log;
+}
+
+}  // namespace
+
 ControlGap control_gap(const GapQuestion& question, interpreter::ProgramSource& programs,
                        const std::function<std::vector<interpreter::ProgramText>()>& called) {
     PathOptions first_look;
@@ -327,8 +342,16 @@ ControlGap control_gap(const GapQuestion& question, interpreter::ProgramSource& 
     if (path_of(question.setup, question.program, programs, first_look).limited)
         throw PathEnded{true};
     const std::vector<interpreter::ProgramText> all = called();
-    const Asked asked{question, programs, all};
-    LogOfProgram log = log_of_program(question.log, all, question.max_blocks);
+    const records::PositionLog own = log_as_meant({question, programs, all});
+    const GapQuestion meant{question.setup, own, question.program, question.max_blocks,
+                            question.watch};
+    const Asked asked{meant, programs, all};
+    LogOfProgram log = log_of_program(own, all, question.max_blocks);
+    if (own.ends && !question.log.ends)
+        log.notes.push_back(
+            own.path +
+            ": most rows stand on ends of moves, so all are taken as ends of moves, not as samples "
+            "(a column 'motion' tells: G0 to G3 for an end, SAMPLE for a sample)");
     settle_meaning(asked.source(question.setup), log);
     Answer answer = judged(asked, log);
     // Late numbers may show only beside the causes. They are wrong at most changes: what stays in
