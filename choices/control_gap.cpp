@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 
+#include "choices/agreeing_range.h"
 #include "choices/block_texts.h"
 #include "choices/edit_rivals.h"
 #include "choices/far_blocks.h"
@@ -219,11 +220,15 @@ Answer judged(const Asked& asked, LogOfProgram log) {
     const bool quiet = is_quiet(log, base);
     if (quiet && is_rounding(log.view, base)) {
         gap.p_value = 1.0;
+        gap.unseen = tell_ranges(comparer, {question.setup, base}, gap.notes);
         return out;
     }
     const double alike = quiet ? correlation_of(log.view, base, blocks) : 0.0;
     if (quiet) gap.p_value = std::min(gap.p_value, p_of_shift(log.view, base, blocks, alike));
-    if (quiet && gap.p_value > chance) return out;
+    if (quiet && gap.p_value > chance) {
+        gap.unseen = tell_ranges(comparer, {question.setup, base}, gap.notes);
+        return out;
+    }
     const std::set<int> called = offset_words(asked.texts);
     const SearchQuestion search{comparer, question.setup, base, blocks, called, alike};
     GapSearch found = search_causes(search, question.watch);
@@ -232,6 +237,7 @@ Answer judged(const Asked& asked, LogOfProgram log) {
                      : row_limit_of(log, base, found.run, blocks, 1e-3 * gap.rms_um);
     };
     if (!quiet) found = beside_far_blocks(search, std::move(found), limit(), question.watch);
+    settle_in_ranges(search, found);
     // Within the noise no row shows whether it is reached: their means do.
     const Judged by{comparer, teller,
                     blocks,   base.loss - (quiet ? found.run.loss : teller.noise_loss()),
@@ -239,6 +245,8 @@ Answer judged(const Asked& asked, LogOfProgram log) {
     tell_causes(question, found, base, by, gap);
     if (quiet && (!is_convincing(gap) || p_of_shift(log.view, found.run, blocks, alike) < chance))
         take_back(question, gap);
+    for (std::string& name : tell_ranges(comparer, {found.setup, found.run}, gap.notes))
+        gap.unseen.push_back(std::move(name));
     out.reached = found.setup;
     std::set<int> left;
     for (std::size_t row = 0; row < blocks.size(); ++row)
