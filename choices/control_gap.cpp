@@ -196,6 +196,17 @@ struct Answer {
     std::size_t left = 0;  ///< blocks that stay far away beside the causes
 };
 
+/// An edit of the program, or another meaning of the columns, with which the log agrees.
+void tell_other_readings(const GapQuestion& question, const GapSearch& found,
+                         const ComparedRun& base, const Judged& by, ControlGap& gap) {
+    if (const std::string edit = agreeing_edit(question, found, base, by); !edit.empty())
+        gap.notes.push_back("the log agrees if " + edit +
+                            ": the program that ran may have been edited there");
+    if (const std::string meaning = agreeing_columns(by.comparer, question.setup, base.loss);
+        !meaning.empty())
+        gap.notes.push_back(fmt::format("the log agrees if {}", meaning));
+}
+
 Answer judged(const Asked& asked, LogOfProgram log) {
     const GapQuestion& question = asked.question;
     // Not Answer{{}, setup}: without memory for the copy, GCC 12 destroys a gap that it never made.
@@ -218,13 +229,11 @@ Answer judged(const Asked& asked, LogOfProgram log) {
     const Teller teller(log, texts, blocks, directions_of(log.view, base));
     tell_base(log, base, teller, gap);
     const bool quiet = is_quiet(log, base);
-    if (quiet && is_rounding(log.view, base)) {
-        gap.p_value = 1.0;
-        gap.unseen = tell_ranges(comparer, {question.setup, base}, gap.notes);
-        return out;
-    }
     const double alike = quiet ? correlation_of(log.view, base, blocks) : 0.0;
-    if (quiet) gap.p_value = std::min(gap.p_value, p_of_shift(log.view, base, blocks, alike));
+    if (quiet)
+        gap.p_value = is_rounding(log.view, base)
+                          ? 1.0
+                          : std::min(gap.p_value, p_of_shift(log.view, base, blocks, alike));
     if (quiet && gap.p_value > chance) {
         gap.unseen = tell_ranges(comparer, {question.setup, base}, gap.notes);
         return out;
@@ -252,14 +261,7 @@ Answer judged(const Asked& asked, LogOfProgram log) {
     for (std::size_t row = 0; row < blocks.size(); ++row)
         if (found.run.losses[row] > by.row_limit) left.insert(blocks[row]);
     out.left = left.size();
-    if (is_left(gap))
-        if (const std::string edit = agreeing_edit(question, found, base, by); !edit.empty())
-            gap.notes.push_back("the log agrees if " + edit +
-                                ": the program that ran may have been edited there");
-    if (is_left(gap))
-        if (const std::string meaning = agreeing_columns(comparer, question.setup, base.loss);
-            !meaning.empty())
-            gap.notes.push_back(fmt::format("the log agrees if {}", meaning));
+    if (is_left(gap)) tell_other_readings(question, found, base, by, gap);
     return out;
 }
 
