@@ -80,7 +80,8 @@ void settle_in_ranges(const SearchQuestion& question, GapSearch& found) {
         bool is_wide = false;
         for (FittedNumber& fitted : step.chosen.numbers) {
             const StoredNumber* number = number_of(table, fitted.name);
-            if (number == nullptr) continue;
+            // A way that is 0 or more is that of a cycle; samples need not show its end.
+            if (number == nullptr || number->least < 0.0) continue;
             const double first = std::max(wider * fitted.sigma, least_step);
             const FittedControl now{found.setup, found.run};
             const AgreeingRange range = agreeing_range(question.comparer, now, *number, first);

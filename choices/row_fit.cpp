@@ -21,7 +21,7 @@ constexpr double most_scatter = 0.05;          ///< of the gap: a larger scatter
 constexpr double most_remainder = 0.07;        ///< of the gap, where it stays in most rows
 constexpr double alike = 2.25;                 ///< times the loss: half as far again
 constexpr double most_rows = 0.9;              ///< that show it
-constexpr double most_servo_mm = 0.1;          ///< of backlash, and of lag across the way: assumed
+constexpr double most_servo_mm = 0.03;         ///< of backlash, and of lag across the way: assumed
 constexpr double least_increment = 0.001;      ///< mm or deg, of a control (IS-B)
 constexpr double of_chord = 2e-4;              ///< mm or deg: a path's chords beside its curves
 

@@ -42,7 +42,7 @@ double row_limit_of(const LogOfProgram& log, const ComparedRun& base, const Comp
 
 /// Loss of a row beside a cause where something small stays in most rows or most blocks: axes that
 /// have backlash or lag at corners, in a log of actual positions. That is no part of the cause; it
-/// may be as large as usual there, a small part of the gap, and 0.1 mm. At least `row_limit`.
+/// may be as large as usual there, a small part of the gap, and 0.03 mm. At least `row_limit`.
 double beside_remainder(const LogOfProgram& log, const ComparedRun& base,
                         const ComparedRun& explained, const std::vector<int>& blocks,
                         double row_limit);
