@@ -90,6 +90,8 @@ constexpr Switch switches[] = {
      "G89 under G98 feeds out to the initial level"},
     {"g53_under_g91_moves", &Setup::g53_under_g91_moves, "G53 under G91 does not move",
      "G53 under G91 moves by its words"},
+    {"rapids_are_doglegs", &Setup::rapids_are_doglegs, "rapids are straight lines",
+     "rapids are doglegs, each axis at its own speed (1401#1 = 0)"},
     {"optional_stop", &Setup::optional_stop, "M01 goes on", "M01 stops"},
     {"threading", &Setup::threading, "there is no G33", "there is G33"},
 };

@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 
+#include "choices/agreeing_range.h"
 #include "choices/block_texts.h"
 #include "choices/edit_rivals.h"
 #include "choices/far_blocks.h"
@@ -20,6 +21,7 @@
 #include "choices/offset_words.h"
 #include "choices/row_fit.h"
 #include "choices/small_shift.h"
+#include "choices/trace_of_ends.h"
 #include "controller/alarms.h"
 #include "estimation/distributions.h"
 
@@ -51,17 +53,12 @@ GapVerdict verdict_of(const ControlGap& gap, bool whole) {
     return rivals ? GapVerdict::ambiguous : GapVerdict::explained;
 }
 
-/// Adds a structured gap that no row of the tables explains; it is as sure as there are blocks with
-/// it.
-void add_unknown(ControlGap& gap, std::size_t blocks) {
-    GapCause cause;
+/// Adds a structured gap that no row of the tables explains, with its share and its places; it is
+/// as sure as there are blocks with it.
+void add_unknown(ControlGap& gap, std::size_t blocks, GapCause cause) {
     cause.name = "unknown";
     cause.known = false;
-    cause.what = "no choice and no store in the tables explains what stays";
-    cause.share = 1.0 - gap.explained;
     cause.blocks = blocks;
-    cause.first = gap.first;
-    cause.worst = gap.worst;
     cause.probability = 1.0;
     cap_probability(cause, 1.0);
     gap.causes.push_back(cause);
@@ -86,6 +83,27 @@ void tell_base(const LogOfProgram& log, const ComparedRun& base, const Teller& t
                         base.path.alarm->where.line);
     gap.after_rms_um = gap.rms_um;
     tell_rest(log.view, base, gap.notes);
+}
+
+/// No cause is claimed: all of the gap is unknown, whatever a doubtful one would remove.
+GapCause nothing_explains(const ControlGap& gap) {
+    GapCause out;
+    out.what = "no choice and no store in the tables explains the gap";
+    out.share = 1.0;
+    out.first = gap.first;
+    out.worst = gap.worst;
+    return out;
+}
+
+/// Beside the causes that are claimed.
+GapCause what_stays(const ControlGap& gap, const ComparedRun& run, const Judged& by) {
+    GapCause out;
+    out.what = "no choice and no store in the tables explains what stays";
+    out.share = 1.0 - gap.explained;
+    const auto is_far = [&](std::size_t row) { return run.losses[row] > by.row_limit; };
+    out.first = by.teller.first(run, is_far);
+    out.worst = by.teller.worst(run, [](std::size_t) { return true; });
+    return out;
 }
 
 void tell_causes(const GapQuestion& question, const GapSearch& found, const ComparedRun& base,
@@ -113,9 +131,10 @@ void tell_causes(const GapQuestion& question, const GapSearch& found, const Comp
     for (const GapBlock& block : by.teller.where(found.run, excess))
         if (block.share > least_left || (!whole && block.p_value < surely_more))
             gap.left.push_back(block);
-    if (gap.verdict == GapVerdict::unexplained ||
-        (gap.verdict == GapVerdict::partly_explained && !whole))
-        add_unknown(gap, gap.verdict == GapVerdict::unexplained ? gap.blocks : gap.left.size());
+    if (gap.verdict == GapVerdict::unexplained)
+        add_unknown(gap, gap.blocks, nothing_explains(gap));
+    else if (gap.verdict == GapVerdict::partly_explained && !whole)
+        add_unknown(gap, gap.left.size(), what_stays(gap, found.run, by));
     gap.unseen = found.unseen;
 }
 
@@ -177,6 +196,17 @@ struct Answer {
     std::size_t left = 0;  ///< blocks that stay far away beside the causes
 };
 
+/// An edit of the program, or another meaning of the columns, with which the log agrees.
+void tell_other_readings(const GapQuestion& question, const GapSearch& found,
+                         const ComparedRun& base, const Judged& by, ControlGap& gap) {
+    if (const std::string edit = agreeing_edit(question, found, base, by); !edit.empty())
+        gap.notes.push_back("the log agrees if " + edit +
+                            ": the program that ran may have been edited there");
+    if (const std::string meaning = agreeing_columns(by.comparer, question.setup, base.loss);
+        !meaning.empty())
+        gap.notes.push_back(fmt::format("the log agrees if {}", meaning));
+}
+
 Answer judged(const Asked& asked, LogOfProgram log) {
     const GapQuestion& question = asked.question;
     // Not Answer{{}, setup}: without memory for the copy, GCC 12 destroys a gap that it never made.
@@ -199,13 +229,15 @@ Answer judged(const Asked& asked, LogOfProgram log) {
     const Teller teller(log, texts, blocks, directions_of(log.view, base));
     tell_base(log, base, teller, gap);
     const bool quiet = is_quiet(log, base);
-    if (quiet && is_rounding(log.view, base)) {
-        gap.p_value = 1.0;
+    const double alike = quiet ? correlation_of(log.view, base, blocks) : 0.0;
+    if (quiet)
+        gap.p_value = is_rounding(log.view, base)
+                          ? 1.0
+                          : std::min(gap.p_value, p_of_shift(log.view, base, blocks, alike));
+    if (quiet && gap.p_value > chance) {
+        gap.unseen = tell_ranges(comparer, {question.setup, base}, gap.notes);
         return out;
     }
-    const double alike = quiet ? correlation_of(log.view, base, blocks) : 0.0;
-    if (quiet) gap.p_value = std::min(gap.p_value, p_of_shift(log.view, base, blocks, alike));
-    if (quiet && gap.p_value > chance) return out;
     const std::set<int> called = offset_words(asked.texts);
     const SearchQuestion search{comparer, question.setup, base, blocks, called, alike};
     GapSearch found = search_causes(search, question.watch);
@@ -214,25 +246,22 @@ Answer judged(const Asked& asked, LogOfProgram log) {
                      : row_limit_of(log, base, found.run, blocks, 1e-3 * gap.rms_um);
     };
     if (!quiet) found = beside_far_blocks(search, std::move(found), limit(), question.watch);
+    settle_in_ranges(search, found);
     // Within the noise no row shows whether it is reached: their means do.
-    const Judged by{comparer, teller, blocks,
-                    base.loss - (quiet ? found.run.loss : teller.noise_loss()), limit()};
+    const Judged by{comparer, teller,
+                    blocks,   base.loss - (quiet ? found.run.loss : teller.noise_loss()),
+                    limit(),  beside_remainder(log, base, found.run, blocks, limit())};
     tell_causes(question, found, base, by, gap);
     if (quiet && (!is_convincing(gap) || p_of_shift(log.view, found.run, blocks, alike) < chance))
         take_back(question, gap);
+    for (std::string& name : tell_ranges(comparer, {found.setup, found.run}, gap.notes))
+        gap.unseen.push_back(std::move(name));
     out.reached = found.setup;
     std::set<int> left;
     for (std::size_t row = 0; row < blocks.size(); ++row)
         if (found.run.losses[row] > by.row_limit) left.insert(blocks[row]);
     out.left = left.size();
-    if (is_left(gap))
-        if (const std::string edit = agreeing_edit(question, found, base, by); !edit.empty())
-            gap.notes.push_back("the log agrees if " + edit +
-                                ": the program that ran may have been edited there");
-    if (is_left(gap))
-        if (const std::string meaning = agreeing_columns(comparer, question.setup, base.loss);
-            !meaning.empty())
-            gap.notes.push_back(fmt::format("the log agrees if {}", meaning));
+    if (is_left(gap)) tell_other_readings(question, found, base, by, gap);
     return out;
 }
 
@@ -293,9 +322,23 @@ void tell_foreign(std::size_t blocks, ControlGap& gap) {
     if (blocks == 0 || is_left(gap)) return;
     gap.verdict =
         gap.verdict == GapVerdict::no_gap ? GapVerdict::unexplained : GapVerdict::partly_explained;
-    add_unknown(gap, blocks);
-    gap.causes.back().what = "the log has blocks that the program lacks";
-    gap.causes.back().share = 0.0;
+    GapCause cause;
+    cause.what = "the log has blocks that the program lacks";
+    add_unknown(gap, blocks, std::move(cause));
+}
+
+}  // namespace
+
+namespace {
+
+/// A log that does not tell ends of moves from samples may have ends only: as samples, what they
+/// show of short moves would not be seen.
+records::PositionLog log_as_meant(const Asked& asked) {
+    const records::PositionLog& log = asked.question.log;
+    if (log.ends) return log;
+    records::PositionLog trace = as_trace(log);
+    const LogOfProgram of = log_of_program(trace, asked.texts, asked.question.max_blocks);
+    return seems_trace(of, asked.comparer(of).run(asked.question.setup)) ? trace : log;
 }
 
 }  // namespace
@@ -309,8 +352,16 @@ ControlGap control_gap(const GapQuestion& question, interpreter::ProgramSource& 
     if (path_of(question.setup, question.program, programs, first_look).limited)
         throw PathEnded{true};
     const std::vector<interpreter::ProgramText> all = called();
-    const Asked asked{question, programs, all};
-    LogOfProgram log = log_of_program(question.log, all, question.max_blocks);
+    const records::PositionLog own = log_as_meant({question, programs, all});
+    const GapQuestion meant{question.setup, own, question.program, question.max_blocks,
+                            question.watch};
+    const Asked asked{meant, programs, all};
+    LogOfProgram log = log_of_program(own, all, question.max_blocks);
+    if (own.ends && !question.log.ends)
+        log.notes.push_back(
+            own.path +
+            ": most rows stand on ends of moves, so all are taken as ends of moves, not as samples "
+            "(a column 'motion' tells: G0 to G3 for an end, SAMPLE for a sample)");
     settle_meaning(asked.source(question.setup), log);
     Answer answer = judged(asked, log);
     // Late numbers may show only beside the causes. They are wrong at most changes: what stays in

@@ -34,6 +34,13 @@ double removed(const std::vector<double>& before, const std::vector<double>& aft
     return sum > 0.0 ? 1.0 - sum_of(after) / sum : 0.0;
 }
 
+/// The cause changes a row by more than what it may have beside it.
+bool is_own(const Judged& by, double before, double after) {
+    if (!is_changed(before, after)) return false;
+    const double least = std::sqrt(by.beside / by.row_limit);
+    return by.beside <= by.row_limit || std::abs(std::sqrt(before) - std::sqrt(after)) > least;
+}
+
 /// A row's difference, or its part across the segment on which the row slides, is that of `shift`.
 bool is_shifted(const LogView& view, const Pair& pair, const ControlPosition& shift, double most) {
     double square = 0.0, along = 0.0, apart = 0.0;
@@ -72,7 +79,7 @@ bool is_one_event(const Judged& by, const ComparedRun& rest, const ComparedRun& 
         if (view.begins_within) first = 0;
     }
     return std::all_of(rest.pairs.begin(), rest.pairs.end(), [&](const Pair& pair) {
-        const double most = std::sqrt(by.row_limit) / view.rows[pair.row].weight;
+        const double most = std::sqrt(by.beside) / view.rows[pair.row].weight;
         return pair.row < first || pair.row > last || is_shifted(view, pair, farthest->apart, most);
     });
 }
@@ -111,16 +118,16 @@ GapCause cause_of(const GapQuestion& question, const GapSearch& found, std::size
     // Foreign blocks beside it are none of its rows. A store in a single block must explain more
     // than they are, because its numbers fit one of them, too.
     std::vector<double> before = rest.losses, after = found.run.losses, left_out = found.left_out;
-    const double all = reached(before, after, by.row_limit);
+    const double all = reached(before, after, by.beside);
     for (std::size_t row = 0; row < before.size(); ++row)
-        if (!changed(row)) before[row] = after[row] = left_out[row] = 0.0;
-    const double own = 2.0 * std::min(reached(before, after, by.row_limit),
-                                      reached_blocks(before, after, by.blocks, by.row_limit)) -
+        if (!is_own(by, before[row], after[row])) before[row] = after[row] = left_out[row] = 0.0;
+    const double own = 2.0 * std::min(reached(before, after, by.beside),
+                                      reached_blocks(before, after, by.blocks, by.beside)) -
                        1.0;
     const bool may_be_foreign = out.blocks < enough_blocks && !step.chosen.numbers.empty();
     cap_probability(out, may_be_foreign ? std::min(own, 4.0 * all - 2.0) : own);
     for (std::size_t row = 0; row < before.size(); ++row)
-        if (after[row] > by.row_limit) before[row] = left_out[row] = 0.0;
+        if (after[row] > by.beside) before[row] = left_out[row] = 0.0;
     if (by.row_limit < infinite_loss) cap_probability(out, removed(before, left_out));
     if (is_one_event(by, rest, found.run))
         out.probability = std::min(out.probability, only_one_block);

@@ -18,6 +18,7 @@ struct Judged {
     const std::vector<int>& blocks;
     double excess;     ///< of the loss, over noise
     double row_limit;  ///< loss of a row that noise may have
+    double beside;     ///< that a row may have beside its cause: noise, or what stays in most rows
 };
 
 /// Limits the probability by the number of blocks that depend on the cause, and by a part that is

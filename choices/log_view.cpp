@@ -253,6 +253,21 @@ double first_position(const records::PositionLog& log, Axis axis, double log_sig
     return mean;
 }
 
+/// Rows that the times of a log miss; empty: none.
+std::string lost_note(const records::PositionLog& log) {
+    std::size_t count = 0;
+    int first = 0;
+    for (const records::LoggedPosition& row : log.rows) {
+        if (!row.cut) continue;
+        if (count++ == 0) first = row.line;
+    }
+    if (count == 0) return "";
+    return fmt::format(
+        "{}: by their times rows are missing at {} place{}, first after line {}: "
+        "what the control does there is not judged",
+        log.path, count, count > 1 ? "s" : "", first);
+}
+
 }  // namespace
 
 const char* to_string(LogNoise noise) {
@@ -295,7 +310,7 @@ LogOfProgram log_of_program(const records::PositionLog& log,
                      key, sigma, row.line, true});
         }
         out.view.rows.push_back(
-            {offsets::control_position_of(row.at), key, sigma, row.line, row.end});
+            {offsets::control_position_of(row.at), key, sigma, row.line, row.end, row.cut});
         out.view.marked = out.view.marked || row.end;
         before = row.at;
     }
@@ -304,6 +319,7 @@ LogOfProgram log_of_program(const records::PositionLog& log,
     out.view.key_of = [keys](const PathBlock& block) { return keys->of_block(block); };
     set_noise(log, out);
     out.notes = mark_missing_rows(out.view);
+    if (std::string note = lost_note(log); !note.empty()) out.notes.push_back(std::move(note));
     if (!out.foreign.empty()) out.notes.push_back(foreign_note(log, out, keys->main()));
     if (!out.view.marked && has_rows_at_ends(out.view)) {
         out.view.marked = true;

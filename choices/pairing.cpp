@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "choices/band.h"
-#include "choices/progress.h"
+#include "choices/passed_nodes.h"
 #include "choices/row_keys.h"
 #include "choices/row_losses.h"
 #include "choices/space.h"
@@ -29,7 +29,7 @@ constexpr double as_cheap = 1e-6;  ///< of the square of a sigma
 class Pairer {
   public:
     Pairer(const LogView& log, const ControlPath& path, const RowKeys& keys)
-        : log_(log), path_(path), space_(log.axes), keys_(keys) {
+        : log_(log), path_(path), space_(log.axes), keys_(keys), passed_(log, path) {
         row_node_.assign(log.rows.size(), missing);
         node_row_.assign(path.nodes.size(), missing);
     }
@@ -182,36 +182,10 @@ class Pairer {
     }
 
     void measure() {
-        strides_ = Strides(log_, space_);
+        passed_.measure();
         length_.assign(path_.nodes.size(), 0.0);
         for (std::size_t k = 1; k < length_.size(); ++k)
             length_[k] = std::sqrt(space_.square(node_at(k - 1), node_at(k)));
-    }
-    /// Distance between a node and the chord from row i on, minus the distance of samples.
-    ControlPosition missed(std::size_t i, std::size_t k, const Progress& motion) const {
-        if (log_.rows[i].cut) return {};
-        const ControlPosition& from = row_at(i);
-        const ControlPosition& to = row_at(std::min(i + 1, log_.rows.size() - 1));
-        const double s = space_.nearest(from, to, node_at(k));
-        ControlPosition apart = space_.apart(space_.between(from, to, s), node_at(k));
-        const double size = std::sqrt(space_.square(apart, {}));
-        if (log_.marked && path_.nodes[k].end) return apart;
-        const double kept =
-            size > 0.0 ? std::max(0.0, 1.0 - strides_.allowed(i, motion) / size) : 0.0;
-        for (double& value : apart.value) value *= kept;
-        return apart;
-    }
-    /// The row whose chord passes a node when i rows are placed: the last one, or the one before
-    /// the next. Between two visits of a block they are not the same.
-    std::size_t passing(const Indices& rows, std::size_t i, std::size_t k,
-                        const Progress& motion) const {
-        const std::size_t next = rows[std::min(i, rows.size() - 1)];
-        const std::size_t before = next - std::min<std::size_t>(next, 1);
-        if (i == 0) return before;
-        const std::size_t last = rows[i - 1];
-        if (i == rows.size() || last == before) return last;
-        const auto square = [&](std::size_t r) { return space_.square(missed(r, k, motion), {}); };
-        return square(before) < square(last) ? before : last;
     }
     /// The nearest place to a row that is no way back from where the rows before have come.
     Spot spot(std::size_t i, std::size_t k, const Progress& before) const {
@@ -229,7 +203,7 @@ class Pairer {
                             space_.between(node_at(k - 1), node_at(k), fraction(spot, k)));
     }
     Progress with_row(const Progress& before, const Spot& spot, std::size_t i) const {
-        return strides_.with_row(before, spot.along_mm, i, i > 0 && !log_.rows[i - 1].cut);
+        return passed_.strides().with_row(before, spot.along_mm, i, i > 0 && !log_.rows[i - 1].cut);
     }
 
     /// The last one of some rows on the segment to a node, or a node that is passed after it.
@@ -260,8 +234,11 @@ class Pairer {
         for (auto at = order.rbegin(); at != order.rend(); ++at) {
             const std::size_t k = at->node;
             if (at->passed) {
-                add_missed(passing(rows, at->rows, k, motion), k, motion);
-                motion = motion.after(path_.nodes[k].end);
+                const std::size_t from = passed_.row_at(rows, at->rows, k, motion);
+                const PassedNodes::Cost cost = passed_.cost(from, k, motion);
+                if (cost.before > 0.0) add_missed_before(first, motion);
+                add_missed(from, k, motion);
+                motion = passed_.after(motion, k, cost);
             } else {
                 const std::size_t i = rows[at->rows - 1];
                 const Spot here = spot(i, k, motion);
@@ -307,12 +284,12 @@ class Pairer {
                 // Nothing that is passed makes a way cheaper; of two ways as cheap, the one that
                 // has not come far on its segment.
                 if (j > 0 && now[j - 1] < infinite && now[j - 1] <= now[j] + tie) {
-                    const std::size_t k = nodes[j - 1], from = passing(rows, i, k, comes[j - 1]);
-                    const double passed =
-                        now[j - 1] + space_.square(missed(from, k, comes[j - 1]), {});
-                    if (passed <= now[j] + tie) {
-                        now[j] = passed;
-                        comes[j] = comes[j - 1].after(path_.nodes[k].end);
+                    const std::size_t k = nodes[j - 1],
+                                      from = passed_.row_at(rows, i, k, comes[j - 1]);
+                    const PassedNodes::Cost cost = passed_.cost(from, k, comes[j - 1]);
+                    if (now[j - 1] + cost.sum() <= now[j] + tie) {
+                        now[j] = now[j - 1] + cost.sum();
+                        comes[j] = passed_.after(comes[j - 1], k, cost);
                         band.step(i, j) = node;
                     }
                 }
@@ -327,8 +304,18 @@ class Pairer {
         return found || limit == infinite ? std::optional(std::move(before)) : std::nullopt;
     }
     void add_missed(std::size_t i, std::size_t k, const Progress& motion) {
-        const ControlPosition apart = missed(i, k, motion);
+        const ControlPosition apart = passed_.missed(i, k, motion);
         if (space_.square(apart, {}) > 0.0) add(i, k, 1.0, apart, false);
+    }
+
+    /// In place of what the node cost when it was passed. `first`: of this block's pairs.
+    void add_missed_before(std::size_t first, const Progress& motion) {
+        const auto passed = std::find_if(
+            pairs_.begin() + static_cast<std::ptrdiff_t>(first), pairs_.end(), [&](const Pair& p) {
+                return p.node == motion.begin && p.fraction == 1.0 && p.row != motion.first;
+            });
+        if (motion.told > 0.0 && passed != pairs_.end()) pairs_.erase(passed);
+        add(motion.first, motion.begin, 1.0, passed_.missed_before(motion), false);
     }
 
     /// Rows of blocks without motion here: the control is at the position of the previous row.
@@ -368,7 +355,7 @@ class Pairer {
     std::size_t opening_row_ = missing;  ///< the first row of a log that begins within the program
     std::size_t begin_node_ = 0;         ///< nodes before are not judged
     Indices row_node_, node_row_;
-    Strides strides_;
+    PassedNodes passed_;
     std::vector<double> length_;  ///< of the segment to each node, mm or deg
     std::vector<Pair> pairs_;
 };

@@ -17,11 +17,14 @@ struct Progress {
     double along_mm = 0.0;   ///< from the start of the present segment: the farthest row
     double stride_mm = 0.0;  ///< largest distance of two successive rows of the motion
     std::uint32_t rows = 0;
+    std::uint32_t first = 0;  ///< the first one
+    std::uint32_t begin = 0;  ///< node where the motion begins; 0: not known
+    double told = 0.0;        ///< cost of that node so far, mm2 or deg2
 
-    /// After the node at the end of a segment.
-    Progress after(bool end_of_motion) const {
-        if (end_of_motion) return {};
+    /// After the node `k` at the end of a segment, which cost `told`.
+    Progress after(std::size_t k, bool end_of_motion, double cost) const {
         Progress out = *this;
+        if (end_of_motion) out = {0.0, 0.0, 0, 0, static_cast<std::uint32_t>(k), cost};
         out.along_mm = 0.0;
         return out;
     }
@@ -46,9 +49,12 @@ class Strides {
     double allowed(std::size_t row, const Progress& motion) const {
         return std::min(around_[row], own(motion));
     }
+    /// The same of its start, when all rows of the motion are known: the way there may have none.
+    double allowed_before(const Progress& motion) const { return own(motion); }
     /// With a row at a place, after the row before it. `joined`: no rows are missing between them.
     Progress with_row(Progress now, double along_mm, std::size_t row, bool joined) const {
         now.along_mm = std::max(now.along_mm, along_mm);
+        if (now.rows == 0) now.first = static_cast<std::uint32_t>(row);
         if (now.rows++ > 0 && joined) now.stride_mm = std::max(now.stride_mm, next(row - 1));
         return now;
     }

@@ -18,6 +18,10 @@ constexpr double spoiled = 5.0;                ///< rows or blocks that a wrong 
 constexpr double clearly = 4.0;                ///< times the limit of a row: it is wrong
 constexpr double other_columns = 1e-3;         ///< of the loss: it is that of noise
 constexpr double most_scatter = 0.05;          ///< of the gap: a larger scatter is no noise
+constexpr double most_remainder = 0.07;        ///< of the gap, where it stays in most rows
+constexpr double alike = 2.25;                 ///< times the loss: half as far again
+constexpr double most_rows = 0.9;              ///< that show it
+constexpr double most_servo_mm = 0.03;         ///< of backlash, and of lag across the way: assumed
 constexpr double least_increment = 0.001;      ///< mm or deg, of a control (IS-B)
 constexpr double of_chord = 2e-4;              ///< mm or deg: a path's chords beside its curves
 
@@ -128,6 +132,30 @@ double row_limit_of(const LogOfProgram& log, const ComparedRun& base, const Comp
         ratio = std::max(1.0, scatter / log.sigma);
     }
     return visible * axes * ratio * ratio;
+}
+
+double beside_remainder(const LogOfProgram& log, const ComparedRun& base,
+                        const ComparedRun& explained, const std::vector<int>& blocks,
+                        double row_limit) {
+    if (explained.losses.empty()) return row_limit;
+    const auto rows = static_cast<double>(explained.losses.size());
+    const double small = most_remainder * most_remainder * base.loss / rows;
+    // The rows of another cause, or of a foreign block, are far more than what most rows have.
+    std::vector<double> left = explained.losses;
+    std::sort(left.begin(), left.end());
+    left.resize(static_cast<std::size_t>(most_rows * rows) + 1);
+    const double usual = visible * sum_of(left) / static_cast<double>(left.size());
+    const double largest = std::pow(most_servo_mm / log.sigma, 2);
+    const double out = std::max(row_limit, std::min({usual, small, largest}));
+    if (explained.loss > small * rows) return out;
+    std::map<int, double> most;
+    for (std::size_t row = 0; row < blocks.size(); ++row)
+        most[blocks[row]] = std::max(most[blocks[row]], explained.losses[row]);
+    std::vector<double> at_blocks;
+    for (const auto& [block, loss] : most) at_blocks.push_back(loss);
+    const auto upper = at_blocks.begin() + static_cast<std::ptrdiff_t>(3 * at_blocks.size() / 4);
+    std::nth_element(at_blocks.begin(), upper, at_blocks.end());
+    return std::max(out, std::min(alike * *upper, largest));
 }
 
 bool is_rounding(const LogView& view, const ComparedRun& run) {

@@ -40,6 +40,13 @@ bool stays_wrong(const std::vector<double>& before, const std::vector<double>& a
 double row_limit_of(const LogOfProgram& log, const ComparedRun& base, const ComparedRun& explained,
                     const std::vector<int>& blocks, double gap);
 
+/// Loss of a row beside a cause where something small stays in most rows or most blocks: axes that
+/// have backlash or lag at corners, in a log of actual positions. That is no part of the cause; it
+/// may be as large as usual there, a small part of the gap, and 0.03 mm. At least `row_limit`.
+double beside_remainder(const LogOfProgram& log, const ComparedRun& base,
+                        const ComparedRun& explained, const std::vector<int>& blocks,
+                        double row_limit);
+
 /// No axis of a row is farther than half the printed increment, and the log has no other noise:
 /// printing alone may do that, alike in all rows at rest.
 bool is_rounding(const LogView& view, const ComparedRun& run);

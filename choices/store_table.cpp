@@ -215,7 +215,9 @@ std::vector<Store> store_table(const Setup& setup, const std::set<int>& called) 
     if (is_hurco(setup)) add_tool_change(setup, out);
     add_reference_positions(axes, out);
     out.push_back({"5114", "retreat of G73", {parameter(5114, 1.0)}});
+    out.back().numbers.front().least = 0.0;
     out.push_back({"5115", "clearance of G83", {parameter(5115, 1.0)}});
+    out.back().numbers.front().least = 0.0;
     add_axis_parameter(5440, "overrun of G60", axes, out);
     return out;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <set>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@ struct StoredNumber {
     std::string name;  ///< "G54.X", "H1.length", "19700"
     std::string unit;  ///< "mm" or "deg"
     std::function<double&(setup::Setup&)> in;
+    double least = -std::numeric_limits<double>::infinity();  ///< of a way: 0
 };
 
 /// Numbers that are entered together.

@@ -108,10 +108,9 @@ void AxisMover::take_marks() {
     move_.transform = frames_.believed.transform ? &*frames_.believed.transform : nullptr;
 }
 
-/// A Hurco's rapid; empty when all axes arrive together.
+/// A rapid without interpolation; empty when all axes arrive together.
 std::optional<motion::Dogleg> AxisMover::dogleg_of(const motion::AxisMove& move) const {
-    const ControlSettings& settings = modal_.settings;
-    if (!settings.is_hurco() || settings.hurco.rapids_are_interpolated) return std::nullopt;
+    if (!modal_.settings.rapids_are_doglegs) return std::nullopt;
     std::optional<motion::Dogleg> way(std::in_place, move.from, move.to, limits);
     if (way->is_straight()) way.reset();
     return way;

@@ -39,6 +39,8 @@ struct ControlConfig {
     bool g89_feeds_to_initial = true;
     /// G53 under G91: moves by its words as if G53 were not there. False: the block does not move.
     bool g53_under_g91_moves = false;
+    /// Rapids without interpolation, each axis at its own speed (1401#1 LRP = 0), of a Fanuc.
+    bool rapids_are_doglegs = false;
     VariableRounding variable_rounding = VariableRounding::none;
     std::vector<bool> skip_switches = std::vector<bool>(10, false);
     bool threading = false;  ///< option G33

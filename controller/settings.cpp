@@ -93,6 +93,8 @@ ControlSettings decode_settings(const offsets::Parameters& parameters,
     s.has_six_digit_variables =
         !s.is_hurco() && config.dialect.generation != interpreter::ControlGeneration::fanuc_16i;
     s.g53_under_g91_moves = config.g53_under_g91_moves;
+    s.rapids_are_doglegs =
+        s.is_hurco() ? !config.hurco.rapids_are_interpolated : config.rapids_are_doglegs;
     s.variable_rounding = config.variable_rounding;
     s.bare_is_noted = !parameters.find(3401);
     s.bare_is_unit = s.bare_is_noted || parameters.bit(3401, 0);

@@ -53,6 +53,7 @@ struct ControlSettings {
     bool d_offsets_from_2401 = false;        ///< 6004#5 D10: #2401.. D offsets, no work offsets
     bool has_six_digit_variables = true;     ///< #100001.. of a 30i and 0i-F
     bool g53_under_g91_moves = false;        ///< own option, see ControlConfig
+    bool rapids_are_doglegs = false;         ///< the same, or that of a Hurco
     /// Own option, see ControlConfig.
     VariableRounding variable_rounding = VariableRounding::none;
     std::uint16_t rollover = 0;         ///< 1008#0 ROA by axis letter bit

@@ -45,8 +45,7 @@ BlockLoss loss_of(const Outcome& f, const Model& model, const Folds& folds) {
         .loss(std::vector<bool>(model.members.size(), true), predicting(f, model, Zeros::all));
 }
 
-Eigen::VectorXd residual_of(const Outcome& f, const Model& model, const Folds& folds,
-                            Zeros zeros) {
+Eigen::VectorXd residual_of(const Outcome& f, const Model& model, const Folds& folds, Zeros zeros) {
     return LeftOut(f.design, model, folds, f.used)
         .residual(std::vector<bool>(model.members.size(), true), predicting(f, model, zeros));
 }

@@ -1,4 +1,5 @@
-// Forms of a found model that a setup may be written with, and what they leave of left-out readings.
+// Forms of a found model that a setup may be written with, and what they leave of left-out
+// readings.
 #pragma once
 
 #include <functional>

@@ -28,8 +28,8 @@ struct Written {
 Written written_setup(const Outcome& found);
 
 /// The same without members whose claims are rather one of their rivals, or nothing, or with what
-/// the best model has in their place, as long as left-out readings do not miss them: what they do at
-/// these readings others undo, and elsewhere nothing does.
+/// the best model has in their place, as long as left-out readings do not miss them: what they do
+/// at these readings others undo, and elsewhere nothing does.
 Written without_unlikely(const Outcome& found, Written written, const std::vector<Claim>& claims);
 
 }  // namespace trunnion::diagnosis

@@ -31,14 +31,15 @@ double drift_start_s(const DataExtent& extent, double span_s) {
 Effect thermal_drift(const DataExtent& extent, const kinematics::Chain& chain) {
     const double span_s = std::max(600.0, extent.end_s - extent.start_s);
     const double from_s = drift_start_s(extent, span_s);
-    Effect effect{identity_of(EffectKind::thermal_drift),
-                  "Tool and table drift apart slowly as the machine warms up",
-                  "spindle and structure warming after switching on or a change of load",
-                  "warm up before measuring; return to a reference sphere every 15 minutes",
-                  "tool tip shifted by d_mm (1 - exp(-(time_s - from_s) / tau_s)), in S; none before "
-                  "from_s",
-                  {},
-                  {}};
+    Effect effect{
+        identity_of(EffectKind::thermal_drift),
+        "Tool and table drift apart slowly as the machine warms up",
+        "spindle and structure warming after switching on or a change of load",
+        "warm up before measuring; return to a reference sphere every 15 minutes",
+        "tool tip shifted by d_mm (1 - exp(-(time_s - from_s) / tau_s)), in S; none before "
+        "from_s",
+        {},
+        {}};
     for (int d = 0; d < 3; ++d) effect.parameters.push_back({"d_mm", "mm", 15e-3, d, {}, true});
     effect.parameters.push_back(
         {"tau_s", "s", 1800.0, -1, geometric_grid(span_s / 60.0, span_s * 3.0, 9), true});

@@ -56,6 +56,7 @@ controller::ControlConfig control_config(const setup::Setup& setup) {
     config.work_offset_is_group_12 = setup.work_offset_is_group_12;
     config.g89_feeds_to_initial = setup.g89_feeds_to_initial;
     config.g53_under_g91_moves = setup.g53_under_g91_moves;
+    config.rapids_are_doglegs = setup.rapids_are_doglegs;
     config.variable_rounding = setup.variable_rounding;
     config.clamps = setup.clamps;
     config.optional_stop = setup.optional_stop;

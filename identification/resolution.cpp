@@ -170,9 +170,9 @@ Eigen::VectorXd rounding(const records::ReadingTable& table, const emulator::Rep
             std::sort(values.begin(), values.end());
             values.erase(std::unique(values.begin(), values.end()), values.end());
         }
-        const double spread =
-            spread_of(std::max({log ? decimal_step(values) : decimal_step_as_shown(values, first.angular),
-                                digit, counter_step(std::move(counts))}));
+        const double spread = spread_of(
+            std::max({log ? decimal_step(values) : decimal_step_as_shown(values, first.angular),
+                      digit, counter_step(std::move(counts))}));
         for (const std::size_t i : rows)
             spread_mm(static_cast<Eigen::Index>(i)) = first.angular ? rad_from_deg(spread) : spread;
     }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "base/units.h"
 #include "imports/column_roles.h"
@@ -183,18 +184,21 @@ class RowOrder {
               table,
               {{"time", "zeit"}, {"timestamp", "zeitstempel"}, {"elapsed", "elapsedtime"}})) {}
 
-    void check(std::size_t row, const Cells& cells) {
-        if (!column_) return;
+    /// Time since the row before, in the column's unit; negative: not known.
+    double check(std::size_t row, const Cells& cells) {
+        if (!column_) return -1.0;
         const records::TableCell& cell = cells[*column_];
         const auto number = table_.find_number(cell.text);
         const auto time = number ? number : seconds_of(cell.text);
-        if (!time) return;
+        if (!time) return -1.0;
         // A time of day begins again at midnight.
         const bool midnight = !number && last_ - *time > half_a_day_s;
         if (*time < last_ && !midnight)
             table_.line(row).fail("the times run backwards: the rows must stand in their order",
                                   cell.column);
+        const double since = *time - last_;
         last_ = *time;
+        return std::isfinite(since) ? since : -1.0;
     }
 
   private:
@@ -202,6 +206,42 @@ class RowOrder {
     const TextTable& table_;
     std::optional<std::size_t> column_;
     double last_ = -std::numeric_limits<double>::infinity();
+};
+
+/// Where a log of even times has lost rows: few times longer than the others.
+class LostRows {
+  public:
+    /// `row`: the last one kept before the time.
+    void add(double since, std::size_t row) {
+        if (since > 0.0) times_.push_back({since, row});
+    }
+    void mark(std::vector<records::LoggedPosition>& rows) const {
+        if (times_.size() < least_times) return;
+        std::vector<double> all;
+        for (const Time& time : times_) all.push_back(time.since);
+        const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+        std::nth_element(all.begin(), middle, all.end());
+        const double usual = *middle;
+        std::size_t even = 0;
+        std::vector<std::size_t> lost;
+        for (const Time& time : times_) {
+            even += time.since <= alike * usual ? 1 : 0;
+            if (time.since > far_longer * usual) lost.push_back(time.row);
+        }
+        const bool few = lost.size() * times_a_gap <= times_.size();
+        if (!few || static_cast<double>(even) < most_even * static_cast<double>(times_.size()))
+            return;
+        for (const std::size_t row : lost) rows[row].cut = true;
+    }
+
+  private:
+    struct Time {
+        double since;
+        std::size_t row;
+    };
+    static constexpr std::size_t least_times = 50, times_a_gap = 50;
+    static constexpr double alike = 1.5, far_longer = 3.5, most_even = 0.9;
+    std::vector<Time> times_;
 };
 
 }  // namespace
@@ -221,10 +261,12 @@ records::PositionLog read_position_log(std::string_view text, const std::string&
     log.ends = columns.motion.has_value();
     PrintedStep printed(columns);
     RowOrder order(table);
+    LostRows lost;
     Cells cells;
     for (std::size_t i = 0; i < table.size(); ++i) {
         table.read(i, cells);
-        order.check(i, cells);
+        const double since = order.check(i, cells);
+        if (!log.rows.empty()) lost.add(since, log.rows.size() - 1);
         const bool sample = columns.motion && cells[*columns.motion].text == "SAMPLE";
         log.ends = log.ends && !sample;
         printed.add(cells);
@@ -236,6 +278,7 @@ records::PositionLog read_position_log(std::string_view text, const std::string&
             log.rows.back().end = log.rows.back().end || row.end;
     }
     if (log.rows.empty()) table.header_line().fail("no row below this line", 1);
+    if (!log.ends) lost.mark(log.rows);
     log.step = std::max(printed.step(), grid_step(log, printed.least()));
     return log;
 }

@@ -24,6 +24,7 @@ struct LoggedPosition {
     std::string program;  ///< name in the log; empty: not given
     std::optional<LoggedArc> arc;
     bool end = false;       ///< end of a move, not a sample along it
+    bool cut = false;       ///< rows are missing behind it: the times say so
     double sigma_mm = 0.0;  ///< standard uncertainty, mm or deg; 0: not given
     int line = 0;           ///< in the log's file
 };

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "base/rounded.h"
@@ -14,6 +15,8 @@ namespace trunnion::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr double much = 0.5;  ///< of a gap: a cause that is not sure is told with it
 
 /// A difference of a place in mm or deg.
 std::string apart_words(const choices::GapPlace& place) {
@@ -98,6 +101,18 @@ std::string blocks_text(const char* head, const std::vector<choices::GapBlock>& 
     return out;
 }
 
+/// A cause that would remove much, but is not sure, is said to be so.
+std::string unexplained_words(const choices::ControlGap& gap) {
+    const auto most = std::find_if(gap.causes.begin(), gap.causes.end(), [](const auto& cause) {
+        return cause.known && cause.share >= much;
+    });
+    if (most == gap.causes.end()) return "; no choice and no store of this control explains it.";
+    return fmt::format(
+        "; no choice and no store of this control surely explains it ({} would "
+        "remove {} %, probability {}).",
+        most->name, percent(most->share), probability_words(most->probability));
+}
+
 }  // namespace
 
 std::string place_words(const choices::GapPlace& place) {
@@ -122,8 +137,7 @@ std::string verdict_sentence(const choices::ControlGap& gap) {
         return "The control moves as the log says, within its noise.";
     const std::string size = fmt::format("Log and control differ by {} rms, at most {} mm or deg",
                                          length_words(gap.rms_um), apart_words(gap.worst));
-    if (gap.verdict == GapVerdict::unexplained)
-        return size + "; no choice and no store of this control explains it.";
+    if (gap.verdict == GapVerdict::unexplained) return size + unexplained_words(gap);
     std::vector<std::string> names;
     bool stays = false;
     for (const choices::GapCause& cause : gap.causes) {

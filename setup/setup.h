@@ -161,6 +161,7 @@ struct Setup {
     bool work_offset_is_group_12 = false;    ///< #4012 reads G54-G59, #4014 G66 G67
     bool g89_feeds_to_initial = true;        ///< G89 under G98 feeds out all the way
     bool g53_under_g91_moves = false;        ///< G53 under G91 moves by its words
+    bool rapids_are_doglegs = false;         ///< of a Fanuc: each axis at its own speed (1401#1)
     /// [control] variable_rounding: of a variable in a position word
     controller::VariableRounding variable_rounding = controller::VariableRounding::none;
     std::vector<controller::ClampCode> clamps;  ///< [control.clamps]

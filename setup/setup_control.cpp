@@ -262,6 +262,7 @@ void read_control(const TomlFile& file, const TomlValue& control, const BackupRe
     read_switch(file, control, "work_offset_is_group_12", setup.work_offset_is_group_12);
     read_switch(file, control, "g89_feeds_to_initial", setup.g89_feeds_to_initial);
     read_switch(file, control, "g53_under_g91_moves", setup.g53_under_g91_moves);
+    read_switch(file, control, "rapids_are_doglegs", setup.rapids_are_doglegs);
     if (const TomlValue* rounding = control.find("variable_rounding"))
         setup.variable_rounding = read_variable_rounding(file, *rounding);
     read_switch(file, control, "optional_stop", setup.optional_stop);

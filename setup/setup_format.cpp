@@ -273,6 +273,7 @@ std::string control_text(const Setup& setup) {
     if (setup.work_offset_is_group_12) out += "work_offset_is_group_12 = true\n";
     if (!setup.g89_feeds_to_initial) out += "g89_feeds_to_initial = false\n";
     if (setup.g53_under_g91_moves) out += "g53_under_g91_moves = true\n";
+    if (setup.rapids_are_doglegs) out += "rapids_are_doglegs = true\n";
     out += rounding_text(setup.variable_rounding);
     if (setup.optional_stop) out += "optional_stop = true\n";
     if (setup.threading) out += "threading = true\n";

@@ -88,7 +88,7 @@ constexpr double sure = 0.95;  ///< probability against the best model without a
                                ///< on nothing is named in its place
 
 constexpr double rather_not = 0.1;  ///< rather one of the rivals, or nothing: not written in vain
-constexpr double claimed = 0.5;  ///< probability of a cause that is claimed, not only listed
+constexpr double claimed = 0.5;     ///< probability of a cause that is claimed, not only listed
 
 constexpr double store_sigmas = 5.0;  ///< of a store's number: claimed from there, missed below
 constexpr double strange_mm = 5e-3;   ///< differences of programmed points that no store explains:

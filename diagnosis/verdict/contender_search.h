@@ -37,7 +37,8 @@ Contender best_without(const Searching& search, const Standing& chosen, FoldColu
                        const Excluded& excluded);
 
 /// The best model without a cause: by the search; with a jump or a course of time in its place; of
-/// a scale, with a ripple that the places do not resolve; or, of a bow about machine zero, the one that takes its slope for squareness.
+/// a scale, with a ripple that the places do not resolve; or, of a bow about machine zero, the one
+/// that takes its slope for squareness.
 Contender contender_of(const Searching& search, const Standing& chosen, FoldColumns& rows,
                        const std::string& cause);
 /// The contender with the visit that it misses most taken for spoiled, if that is more likely: what

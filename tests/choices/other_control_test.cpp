@@ -255,6 +255,45 @@ TEST_CASE("a rapid without interpolation is compared with its corner") {
     CHECK(path.nodes.size() < 100);
 }
 
+TEST_CASE("a Fanuc whose rapids are doglegs is no Hurco alone") {
+    const std::string program =
+        "N10 G21 G90 G17 G54\nN20 G0 X40. Y-10.\nN30 X5. Y-60. Z20.\nN40 G1 X20. F600\nN50 G0 "
+        "X-30. Y0. Z10.\nN60 X10. Y25.\nN70 M30\n";
+    SampledLog log({0, 0, 0});
+    const auto rapid = [&](int block, log_bench::Place end) {
+        // All axes at one speed: each stops where it arrives.
+        for (;;) {
+            const log_bench::Place from = log.at();
+            double least = 0.0;
+            for (std::size_t k = 0; k < 3; ++k)
+                if (const double way = std::abs(end[k] - from[k]); way > 1e-9)
+                    least = least > 0.0 ? std::min(least, way) : way;
+            if (least == 0.0) return;
+            log_bench::Place next = from;
+            double moving = 0.0;
+            for (std::size_t k = 0; k < 3; ++k) {
+                if (std::abs(end[k] - from[k]) <= 1e-9) continue;
+                next[k] += std::copysign(least, end[k] - from[k]);
+                moving += 1.0;
+            }
+            log.to(block, next, std::sqrt(moving));
+        }
+    };
+    rapid(20, {40, -10, 0});
+    rapid(30, {5, -60, 20});
+    log.to(40, {20, -60, 20}, 0.3);
+    rapid(50, {-30, 0, 10});
+    rapid(60, {10, 25, 10});
+    const auto gap = gap_of(mill_of(), log.log, program);
+    REQUIRE(gap.causes.size() == 1);
+    const choices::GapCause& cause = gap.causes[0];
+    CHECK(cause.name == "rapids_are_doglegs=true");
+    CHECK(gap.verdict == GapVerdict::ambiguous);
+    CHECK(std::find(cause.rivals.begin(), cause.rivals.end(), "dialect=hurco") !=
+          cause.rivals.end());
+    CHECK(gap.setup.rapids_are_doglegs);
+}
+
 TEST_CASE("rows behind a stop that are left to earlier moves do not ask for another control") {
     const std::string twice = R"(N10 G90 G21 G17 G54
 N20 G0 X5. Y2. Z30.

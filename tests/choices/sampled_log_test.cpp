@@ -180,6 +180,25 @@ TEST_CASE("a log of samples: retracts of G73 that are not those of 5114") {
     CHECK((gap.verdict == GapVerdict::explained || gap.verdict == GapVerdict::ambiguous));
     REQUIRE(!gap.causes.empty());
     CHECK(gap.causes[0].name == "5114");
+    // 0.1 mm lies between two samples, but not what this control goes farther.
+    const choices::ControlGap less = log_bench::gap_of(
+        log_bench::mill_of("[control.parameters]\n5114 = 1.5\n"), log_with(0.1), pecking);
+    REQUIRE(!less.causes.empty());
+    CHECK(less.causes[0].name == "5114");
+    REQUIRE(less.causes[0].numbers.size() == 1);
+    const choices::FittedNumber& number = less.causes[0].numbers[0];
+    CHECK(number.sigma > 0.02);
+    CHECK(std::abs(number.to - 0.1) < 2.0 * number.sigma);
+}
+
+TEST_CASE("a log of samples: a clearance of G83 that no sample shows is said to be not tested") {
+    std::string pecking = holes;
+    pecking.replace(pecking.find("N60 X40."), 8, "N60 G83 X40. Z-32. R-18. Q7.");
+    const auto gap =
+        log_bench::gap_of(log_bench::mill_of(), drilled({-32.0, {-25.0}, 1}).log, pecking);
+    CHECK(std::find(gap.unseen.begin(), gap.unseen.end(), "5115") != gap.unseen.end());
+    CHECK(log_bench::has_note(gap, "5115 (clearance of G83, here 1 mm) is not tested"));
+    CHECK(std::find(gap.unseen.begin(), gap.unseen.end(), "5114") == gap.unseen.end());
 }
 
 TEST_CASE("a log of samples: missing rows are no gap, and hide no store") {

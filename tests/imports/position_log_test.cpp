@@ -1,6 +1,7 @@
 // Positions logged by a control: rows whose times run backwards are not in their order.
 #include "imports/position_log.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -110,4 +111,23 @@ TEST_CASE("an unknown unit is refused where all columns name their own, too") {
         import_bench::setup(),
         {imports::ImportKind::axis_log, "N,X cmd [mm]\n20,1.5\n", {"unit=furlong"}, ""}, "furlong",
         0);
+}
+
+TEST_CASE("rows that a log of even times has lost are seen by their times") {
+    const auto log_with = [](int lost_from, int lost_to) {
+        std::string text = "time [ms],N,X cmd [mm]\n";
+        for (int k = 0; k < 120; ++k)
+            if (k < lost_from || k >= lost_to)
+                text += std::to_string(20 * k) + ",20," + std::to_string(k) + "\n";
+        return imports::read_position_log(text, "log.csv", import_bench::setup());
+    };
+    const auto cuts = [](const records::PositionLog& log) {
+        return std::count_if(log.rows.begin(), log.rows.end(),
+                             [](const auto& row) { return row.cut; });
+    };
+    CHECK(cuts(log_with(0, 0)) == 0);
+    const records::PositionLog lost = log_with(50, 60);
+    CHECK(cuts(lost) == 1);
+    CHECK(lost.rows[49].cut);
+    CHECK(cuts(log_with(50, 51)) == 0);  // one late row is none
 }

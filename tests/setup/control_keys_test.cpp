@@ -123,6 +123,14 @@ TEST_CASE("G53 under G91 moves where the setup says so, and the setup is written
     CHECK(run_text(setup_with(""), program).variables.at(100) == 5.0);
 }
 
+TEST_CASE("rapids are doglegs where the setup says so, and the setup is written so") {
+    const setup::Setup first = setup_with("rapids_are_doglegs = true\n");
+    std::vector<std::string> notes;
+    const setup::Setup again = setup::parse_setup(setup::format_setup(first), "t.toml", notes);
+    CHECK(again.rapids_are_doglegs);
+    CHECK(!setup_with("").rapids_are_doglegs);
+}
+
 TEST_CASE("a variable in a position word is rounded where the setup says so, digits are not") {
     struct Case {
         const char* name;

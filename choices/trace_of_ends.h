@@ -1,0 +1,17 @@
+// A log without a column `motion` whose rows are ends of moves, not samples.
+#pragma once
+
+#include "choices/compared_run.h"
+#include "choices/log_view.h"
+
+namespace trunnion::choices {
+
+/// `log` is read as ends of moves, `run` the control compared with it. Its rows are ends if there
+/// are few more of them than moves, and most keep to the ends of moves, or to the same difference
+/// from them as the row before. Samples do so only where the axes rest.
+bool seems_trace(const LogOfProgram& log, const ComparedRun& run);
+
+/// The same log, each row the end of a move.
+records::PositionLog as_trace(records::PositionLog log);
+
+}  // namespace trunnion::choices
