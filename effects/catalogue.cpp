@@ -113,13 +113,13 @@ CarriedTool carried_tool(const setup::Setup& setup) {
 /// for, and the usual slope of a rotary axis. An axis that turns by a few degrees at most gets its
 /// angle from an arm or a wedge, whose gain is right by parts of its travel (assumed).
 void fit_to_range(const DataExtent& extent, Effect& effect) {
-    constexpr double small_rad = 0.3;
+    constexpr double small_rad = 0.3, stands_rad = 1e-3;  // below: jitter of an axis at rest
     if (!effect.axis) return;
     const double range = extent.most[*effect.axis] - extent.least[*effect.axis];
     for (EffectParameter& p : effect.parameters) {
         if (effect.kind == EffectKind::cyclic && p.is_key() && !p.counts_periods)
             p.grid = ripple_periods_mm(range);
-        if (p.name == "slope_rad_per_rad" && range > 0.0 && range < small_rad)
+        if (p.name == "slope_rad_per_rad" && range >= stands_rad && range < small_rad)
             p.typical *= small_rad / range;
     }
 }

@@ -10,7 +10,8 @@ namespace trunnion::effects {
 
 std::vector<double> ripple_periods_mm(double range_mm) {
     constexpr double least_mm = 4.0, most_mm = 50.0, long_mm = 200.0, finest = 1.0 / 200.0;
-    if (range_mm <= 0.0 || range_mm >= long_mm) return geometric_grid(least_mm, most_mm, 180);
+    constexpr double stands_mm = 1e-3;
+    if (range_mm < stands_mm || range_mm >= long_mm) return geometric_grid(least_mm, most_mm, 180);
     const double part = range_mm / long_mm;
     const double low_mm = std::max(least_mm * part * part, finest * range_mm);
     const double high_mm = std::min(most_mm, 0.5 * range_mm);

@@ -242,10 +242,13 @@ std::optional<std::vector<double>> period_at_few_places(const Prepared& prepared
                                                         const Eigen::VectorXd& rest_mm) {
     constexpr double steps_per_cycle = 16.0;    // from end to end of the range
     constexpr std::size_t most_readings = 500;  // more of them are seldom at few places
+    constexpr double short_mm = 200.0;  // beyond, periods are too many (ripple_periods_mm())
     const auto ripple = ripple_of(effect, keys);
     if (!ripple || ripple->counts || prepared.replay.size() > most_readings) return std::nullopt;
     const std::vector<double> places = places_for(prepared, ripple->axis);
-    if (places.size() < least_places || places.size() >= many_on_grid) return std::nullopt;
+    if (places.size() < least_places || places.size() >= many_on_grid ||
+        places.back() - places.front() >= short_mm)
+        return std::nullopt;
     const identification::KeyGain gain(prepared.replay, prepared.base, rest_mm);
     const auto [least, most] = std::minmax_element(ripple->offered.begin(), ripple->offered.end());
     const double step = 1.0 / (steps_per_cycle * (places.back() - places.front()));

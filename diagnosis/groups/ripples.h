@@ -47,9 +47,9 @@ std::size_t place_count(const Prepared& prepared, Axis axis);
 bool may_be_usual(const effects::Effect& effect, const std::vector<double>& keys,
                   const std::vector<double>& others);
 
-/// The keys of a ripple of a linear axis at few places (8 to 23) that explain most of `rest_mm`
-/// (device rows), of all periods: near a rough one, chance wins over what is there. Empty for other
-/// effects, more places, or more than 500 readings.
+/// The keys of a ripple of a linear axis at few places (8 to 23) over less than 200 mm that explain
+/// most of `rest_mm` (device rows), of all periods: near a rough one, chance wins over what is
+/// there. Empty for other effects, more places, a longer way, or more than 500 readings.
 std::optional<std::vector<double>> period_at_few_places(const Prepared& prepared,
                                                         const effects::Effect& effect,
                                                         std::vector<double> keys,

@@ -74,12 +74,13 @@ TEST_CASE("the periods of a ripple fit the range that was read", "[effects]") {
         for (std::size_t k = 1; k < grid.size(); ++k) {
             REQUIRE(grid[k] > grid[k - 1]);
             // From end to end a quarter of a cycle more; of long ways the search looks between.
-            if (range_mm > 0.0 && range_mm < 200.0)
+            if (range_mm >= 1e-3 && range_mm < 200.0)
                 REQUIRE(range_mm / grid[k - 1] - range_mm / grid[k] < 0.2501);
         }
         return std::pair(grid.front(), grid.back());
     };
-    for (const double range_mm : {0.0, 200.0, 200.1, 900.0}) {
+    // An axis that stands has the jitter of its command, or none.
+    for (const double range_mm : {0.0, 1e-320, 9.9e-4, 200.0, 200.1, 900.0}) {
         CHECK(limits(range_mm).first == Approx(4.0));
         CHECK(limits(range_mm).second == Approx(50.0));
     }
@@ -88,6 +89,29 @@ TEST_CASE("the periods of a ripple fit the range that was read", "[effects]") {
     CHECK(limits(40.0).first == Approx(0.2).epsilon(0.01));
     CHECK(limits(40.0).second == Approx(20.0));
     CHECK(limits(1e-3).first == Approx(5e-6).epsilon(0.01));
+}
+
+TEST_CASE("a rotary axis that turns little may have a large gain, one that stands has none",
+          "[effects]") {
+    std::vector<std::string> notes;
+    const setup::Setup setup = setup::parse_setup(
+        "[machine]\nname = \"m\"\nchain = \"w b C t\"\n[machine.axis.C]\ndirection = [0, 0, 1]\n"
+        "point_mm = [0, 0, 0]\nlimits_deg = [-90, 90]\n",
+        "m.toml", notes);
+    const auto usual = [&](double range_rad) {
+        effects::DataExtent extent;
+        extent.least[Axis::C] = 0.2;
+        extent.most[Axis::C] = 0.2 + range_rad;
+        const effects::Catalogue catalogue = effects::make_catalogue(setup, extent);
+        for (const effects::EffectParameter& p :
+             effects::find_effect(catalogue, "C.positioning")->parameters)
+            if (p.name == "slope_rad_per_rad") return p.typical;
+        return 0.0;
+    };
+    for (const double range_rad : {0.0, 1e-12, 9.9e-4, 0.31, 3.0})
+        CHECK(usual(range_rad) == Approx(15e-6));
+    CHECK(usual(0.15) == Approx(30e-6));
+    CHECK(usual(1.1e-3) == Approx(15e-6 * 0.3 / 1.1e-3));
 }
 
 TEST_CASE("a drift counts from the first reading where the clock starts late", "[effects]") {
