@@ -118,9 +118,9 @@ Cause unknown_cause(const Outcome& f, const Diagnosis& d) {
             "something "
             "disturbs the readings",
             f.judgement.scatter);
-    } else if (f.judgement.alike_near && places.empty()) {
+    } else if ((f.judgement.alike_near || f.judgement.alike_in_time) && places.empty()) {
         cause.probability = rules::sure;
-        cause.what = near_words;
+        cause.what = f.judgement.alike_near ? near_words : alike_words;
     } else if (is_unstated_scatter(f, d) && places.empty()) {
         // Nobody states the noise: it may be that large as well as not.
         const bool follows_time = is_alike_in_time(f);

@@ -10,27 +10,34 @@
 namespace trunnion::estimation {
 namespace {
 
-constexpr double mean_of_half = 0.142658;  ///< of the smaller half of squared normal deviates
-constexpr double rejected = 0.01;          ///< good values set aside in a sample
+constexpr double rejected = 0.01;  ///< good values set aside in a sample
 constexpr double most_spoiled = 1.0 / 3.0;
 constexpr double farthest = 6.0;  ///< deviations: what is farther counts as there
-constexpr int most_passes = 50;
 
-double root_mean_square(const std::vector<double>& sizes, std::size_t count) {
+double root_mean_square(const std::vector<double>& sizes) {
     double sum = 0.0;
-    for (std::size_t k = 0; k < count; ++k) sum += sizes[k] * sizes[k];
-    return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, count)));
+    for (const double size : sizes) sum += size * size;
+    return std::sqrt(sum / static_cast<double>(sizes.size()));
 }
 
-/// Number of the smallest sizes that may be normal deviates; `kept` of them told the deviation.
-std::size_t within(const std::vector<double>& sizes, double deviation, std::size_t kept) {
-    const auto freedom = static_cast<double>(kept);
-    const double level = rejected / static_cast<double>(sizes.size());
-    const auto end = std::partition_point(sizes.begin(), sizes.end(), [&](double size) {
-        const double t = size / deviation;
-        return !(f_tail(t * t, 1.0, freedom) < level);
-    });
-    return static_cast<std::size_t>(end - sizes.begin());
+/// True for a size that is no deviate beside the smallest ones, by Student's t.
+bool is_far(double size, double deviation, std::size_t kept, std::size_t all) {
+    const double t = size / deviation;
+    return f_tail(t * t, 1.0, static_cast<double>(kept)) < rejected / static_cast<double>(all);
+}
+
+/// Number of the smallest sizes, of half of them at least, before the first one that is far beside
+/// them. `sizes` rise.
+std::size_t within(const std::vector<double>& sizes, double least) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < sizes.size(); ++k) {
+        const double deviation = std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, k)));
+        if (2 * k >= sizes.size() &&
+            is_far(sizes[k], std::max({deviation, least, 1e-300}), k, sizes.size()))
+            return k;
+        sum += sizes[k] * sizes[k];
+    }
+    return sizes.size();
 }
 
 /// All values, those beyond six deviations as if they were there.
@@ -38,7 +45,7 @@ Scatter cut_off(const std::vector<double>& values, double least) {
     const double most = farthest * std::max(least, robust_deviation(values));
     std::vector<double> sizes;
     for (const double value : values) sizes.push_back(std::min(most, std::abs(value)));
-    return {root_mean_square(sizes, sizes.size()), std::vector<bool>(values.size(), true)};
+    return {root_mean_square(sizes), std::vector<bool>(values.size(), true)};
 }
 
 }  // namespace
@@ -48,20 +55,13 @@ Scatter scatter_of(const std::vector<double>& values, double least) {
     std::vector<double> sizes;
     for (const double value : values) sizes.push_back(std::abs(value));
     std::sort(sizes.begin(), sizes.end());
-    std::size_t kept = (sizes.size() + 1) / 2;
-    double deviation = root_mean_square(sizes, kept) / std::sqrt(mean_of_half);
-    kept = sizes.size();
-    for (int pass = 0; pass < most_passes; ++pass) {
-        const std::size_t count = within(sizes, std::max({deviation, least, 1e-300}), kept);
-        deviation = root_mean_square(sizes, count);
-        if (count == kept && pass > 0) break;
-        kept = count;
-    }
+    const std::size_t kept = within(sizes, least);
     const auto all = static_cast<double>(sizes.size());
     if (static_cast<double>(sizes.size() - kept) > most_spoiled * all)
         return cut_off(values, least);
-    Scatter scatter{deviation, {}};
-    const double limit = kept == 0 ? 0.0 : sizes[kept - 1];
+    sizes.resize(kept);
+    Scatter scatter{root_mean_square(sizes), {}};
+    const double limit = sizes.back();
     for (const double value : values) scatter.kept.push_back(std::abs(value) <= limit);
     return scatter;
 }

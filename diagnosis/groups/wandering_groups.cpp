@@ -20,7 +20,7 @@ constexpr Eigen::Index most_time_columns = 32;
 constexpr double part_of_time = 1.0 / 20.0;  ///< that a state lasts, of the whole test (assumed)
 
 /// True for readings of a laser, an autocollimator or a reference encoder: their zero is one value
-/// along the axis. What a probe reads may move in every direction (driver_groups.cpp).
+/// along the axis. What a probe reads may move in every direction (driver_list.cpp).
 bool have_one_direction(const emulator::Replay& replay) {
     for (std::size_t i = 0; i < replay.size(); ++i)
         if (!reads_targets(replay.contact(i).device)) return false;
@@ -77,7 +77,6 @@ void add_wandering_groups(Design& design, const Prepared& prepared, const Whiten
         Eigen::MatrixXd columns = response_to(prepared, axis).asDiagonal() * courses;
         if (columns.squaredNorm() == 0.0) continue;
         whitener.apply(columns);
-        columns = beside_places(prepared, whitener, std::move(columns));
         ColumnGroup group;
         group.kind = GroupKind::driver;
         group.name = "time";
@@ -86,12 +85,17 @@ void add_wandering_groups(Design& design, const Prepared& prepared, const Whiten
             told ? "comes and goes with time" : "comes and goes in the order of the readings";
         group.of_time = true;
         group.is_anything = true;
-        const Eigen::Index first = design.add_features(columns);
-        for (Eigen::Index k = 0; k < columns.cols(); ++k) group.features.push_back(first + k);
         group.log_prior =
             rules::table_prior - std::log(static_cast<double>(prepared.table.axes.size()));
-        add_whole(design, group);
-        design.add_beside(std::move(group), owned);
+        const auto with_columns = [&](bool by_side) {
+            const Eigen::MatrixXd own = beside_places(prepared, whitener, columns, by_side);
+            const Eigen::Index first = design.add_features(own);
+            ColumnGroup of = group;
+            for (Eigen::Index k = 0; k < own.cols(); ++k) of.features.push_back(first + k);
+            return of;
+        };
+        add_whole(design, with_columns(false));
+        design.add_beside(with_columns(true), owned);
     }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <utility>
 
 namespace trunnion::diagnosis {
@@ -65,6 +66,22 @@ struct Pair {
     double a, b;
 };
 
+Pair pair_of(std::size_t i, std::size_t j, const Eigen::VectorXd& left_mm,
+             const Eigen::VectorXd& sigma_mm) {
+    const std::size_t first = std::min(i, j), second = std::max(i, j);
+    const auto a = static_cast<Eigen::Index>(first), b = static_cast<Eigen::Index>(second);
+    return {first, second, left_mm(a) / sigma_mm(a), left_mm(b) / sigma_mm(b)};
+}
+
+/// Square of the difference of two readings, relative to what their sigmas say.
+double square_between(const Pair& pair, const Eigen::VectorXd& left_mm,
+                      const Eigen::VectorXd& sigma_mm) {
+    const auto a = static_cast<Eigen::Index>(pair.first),
+               b = static_cast<Eigen::Index>(pair.second);
+    const double difference = (left_mm(a) - left_mm(b)) / std::hypot(sigma_mm(a), sigma_mm(b));
+    return difference * difference;
+}
+
 /// Mean product of neighbours in its deviations, were they independent; far residuals count as
 /// three times the usual one, lest one pair of spoiled readings decides. Readings that are nearest
 /// to each other are one pair.
@@ -88,6 +105,15 @@ double likeness_of(std::vector<Pair> pairs) {
     return square > 0.0 ? product / square * std::sqrt(static_cast<double>(pairs.size())) : 0.0;
 }
 
+NeighbourNoise noise_of_pairs(std::vector<Pair> pairs, const Eigen::VectorXd& left_mm,
+                              const Eigen::VectorXd& sigma_mm) {
+    if (pairs.size() < least_pairs) return {};
+    std::vector<double> squares;
+    for (const Pair& pair : pairs) squares.push_back(square_between(pair, left_mm, sigma_mm));
+    const double doubt = doubt_of_one / std::sqrt(static_cast<double>(squares.size()));
+    return {variance_of(std::move(squares)), doubt, likeness_of(std::move(pairs))};
+}
+
 }  // namespace
 
 NeighbourNoise noise_of_neighbours(const emulator::Replay& replay, const std::vector<bool>& used,
@@ -98,30 +124,41 @@ NeighbourNoise noise_of_neighbours(const emulator::Replay& replay, const std::ve
         const records::Device device = replay.contact(i).device;
         return used[i] && (device == records::Device::angle || device == records::Device::point);
     };
-    std::vector<double> squares;
     std::vector<Pair> pairs;
     const std::size_t step = 1 + replay.size() / most_pairs;
     for (std::size_t i = 0; i < replay.size(); i += step) {
         if (!counts(i)) continue;
-        double nearest = near * near, difference = 0.0;
-        Pair pair{};
+        double nearest = near * near;
+        std::size_t neighbour = i;
         for (std::size_t j = 0; j < replay.size(); ++j) {
             if (j == i || !counts(j) || !is_alike(replay.contact(i), replay.contact(j))) continue;
             const double distance = (places[i] - places[j]).squaredNorm();
             if (distance >= nearest) continue;
             nearest = distance;
-            const auto a = static_cast<Eigen::Index>(i), b = static_cast<Eigen::Index>(j);
-            difference = (left_mm(a) - left_mm(b)) / std::hypot(sigma_mm(a), sigma_mm(b));
-            pair = {std::min(i, j), std::max(i, j), left_mm(a) / sigma_mm(a),
-                    left_mm(b) / sigma_mm(b)};
+            neighbour = j;
         }
-        if (nearest >= near * near) continue;
-        squares.push_back(difference * difference);
-        pairs.push_back(pair);
+        if (neighbour != i) pairs.push_back(pair_of(i, neighbour, left_mm, sigma_mm));
     }
-    if (squares.size() < least_pairs) return {};
-    const double doubt = doubt_of_one / std::sqrt(static_cast<double>(squares.size()));
-    return {variance_of(std::move(squares)), doubt, likeness_of(std::move(pairs))};
+    return noise_of_pairs(std::move(pairs), left_mm, sigma_mm);
+}
+
+NeighbourNoise noise_of_successive(const emulator::Replay& replay,
+                                   const std::vector<NoiseBlock>& blocks,
+                                   const std::vector<bool>& used, const Eigen::VectorXd& left_mm,
+                                   const Eigen::VectorXd& sigma_mm) {
+    std::vector<Pair> pairs;
+    for (const NoiseBlock& block : blocks) {
+        if (block.device != records::Device::axis) continue;
+        std::map<Axis, std::size_t> last;
+        for (const Eigen::Index row : block.rows) {
+            const auto i = static_cast<std::size_t>(row);
+            if (!used[i]) continue;
+            const auto [before, is_first] = last.try_emplace(replay.contact(i).axis, i);
+            if (!is_first) pairs.push_back(pair_of(before->second, i, left_mm, sigma_mm));
+            before->second = i;
+        }
+    }
+    return noise_of_pairs(std::move(pairs), left_mm, sigma_mm);
 }
 
 }  // namespace trunnion::diagnosis

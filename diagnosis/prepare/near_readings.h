@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "diagnosis/prepare/noise.h"
 #include "emulator/replay.h"
 
 namespace trunnion::diagnosis {
@@ -26,5 +27,12 @@ struct NeighbourNoise {
 /// instrument takes one by one (angle, point). Residuals and sigmas by device row.
 NeighbourNoise noise_of_neighbours(const emulator::Replay& replay, const std::vector<bool>& used,
                                    const Eigen::VectorXd& left_mm, const Eigen::VectorXd& sigma_mm);
+
+/// The same of successive rows of a servo log: half the squares of their differences. What comes
+/// and goes in many rows cancels, and is no noise.
+NeighbourNoise noise_of_successive(const emulator::Replay& replay,
+                                   const std::vector<NoiseBlock>& blocks,
+                                   const std::vector<bool>& used, const Eigen::VectorXd& left_mm,
+                                   const Eigen::VectorXd& sigma_mm);
 
 }  // namespace trunnion::diagnosis

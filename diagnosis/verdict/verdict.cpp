@@ -230,13 +230,19 @@ double part_of(const Judgement& j, double unknowns) {
 }
 
 /// A gap where what is left of neighbours is alike: noise is then at most what they do not share.
+/// Successive rows of a log are alike within the last digit, too: that is no gap.
 void see_neighbours(const Prepared& p, const std::vector<bool>& used,
                     const Eigen::VectorXd& remainder, double unknowns, Judgement& j) {
+    constexpr double beyond_digit = 2.0;
     const auto rows = static_cast<Eigen::Index>(used.size());
-    const NeighbourNoise near =
-        noise_of_neighbours(p.replay, used, remainder.head(rows), Eigen::VectorXd::Ones(rows));
+    const Eigen::VectorXd left = remainder.head(rows), one = Eigen::VectorXd::Ones(rows);
+    NeighbourNoise near = noise_of_neighbours(p.replay, used, left, one);
+    const bool log = near.variance == 0.0 && j.floor > beyond_digit;
+    if (log) near = noise_of_successive(p.replay, p.blocks, used, left, one);
     if (near.alike < rules::alike || near.variance >= j.floor) return;
-    j.gap = j.alike_near = true;
+    j.gap = true;
+    j.alike_near = !log;
+    j.alike_in_time = log;
     j.floor = near.variance;
     j.part = part_of(j, unknowns);
 }

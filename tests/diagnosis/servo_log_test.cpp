@@ -368,4 +368,32 @@ TEST_CASE("an encoder of coarse steps is no control that rounds", "[diagnosis]")
     CHECK(d.noise_um.value() == Approx(1e3 * step_mm / std::sqrt(12.0)).epsilon(0.1));
 }
 
+// Neither the setup nor repeats tell the noise: what comes and goes over many rows is none.
+TEST_CASE("what a log shows of the position is a gap, and noise is none, whatever its size",
+          "[diagnosis][servo]") {
+    std::vector<std::string> notes;
+    const setup::Setup setup = setup::parse_setup(
+        "[machine]\nname = \"m\"\nchain = \"w b X Y Z t\"\n[model]\nmodelled = []\n", "s.toml",
+        notes);
+    const double error_mm = GENERATE(0.0, 0.008);
+    const double period_mm = GENERATE(7.0, 60.0);
+    std::mt19937_64 engine(11);
+    std::normal_distribution<double> noise(0.0, 3e-3);
+    records::ReadingTable table = log("test", 1200, 0.7);
+    for (records::Reading& row : table.rows)
+        row.value_mm = noise(engine) +
+                       error_mm * std::sin(2.0 * pi * row.commanded[Axis::X] / period_mm + 1.0);
+    const diagnosis::Diagnosis d = diagnosed(setup, table);
+    INFO(error_mm << " mm, " << period_mm << " mm: " << said(d));
+    if (error_mm == 0.0) {
+        CHECK(d.verdict == diagnosis::Verdict::no_gap);
+        return;
+    }
+    CHECK(d.verdict == diagnosis::Verdict::unexplained);
+    REQUIRE(!d.causes.empty());
+    CHECK(d.causes.front().effect == "unknown");
+    CHECK(d.noise_um < 5.0);
+    if (period_mm > 50.0) CHECK_THAT(d.causes.front().what, Catch::Contains("position of X"));
+}
+
 }  // namespace trunnion
