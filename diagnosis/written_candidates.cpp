@@ -45,6 +45,12 @@ BlockLoss loss_of(const Outcome& f, const Model& model, const Folds& folds) {
         .loss(std::vector<bool>(model.members.size(), true), predicting(f, model, Zeros::all));
 }
 
+BlockLoss loss_on_paths(const Outcome& f, const Model& model, const Folds& paths) {
+    return LeftOut(f.design, model, paths, f.used)
+        .loss_beside_set_up(std::vector<bool>(model.members.size(), true),
+                            predicting(f, model, Zeros::all));
+}
+
 Eigen::VectorXd residual_of(const Outcome& f, const Model& model, const Folds& folds, Zeros zeros) {
     return LeftOut(f.design, model, folds, f.used)
         .residual(std::vector<bool>(model.members.size(), true), predicting(f, model, zeros));
@@ -73,7 +79,7 @@ std::vector<bool> predicting_elsewhere(const Outcome& f, const Folds& paths) {
     const auto loss = [&](const std::vector<bool>& fitted) {
         std::vector<bool> predicts = counts;
         for (std::size_t k = 0; k < fitted.size(); ++k) predicts[k] = predicts[k] && fitted[k];
-        return left.loss(fitted, predicts);
+        return left.loss_beside_set_up(fitted, predicts);
     };
     std::vector<bool> kept = f.judgement.interpolates;
     for (std::size_t k = 0; k < kept.size(); ++k)

@@ -19,6 +19,8 @@ enum class Zeros : unsigned char { all, small };
 
 /// Loss of left-out readings with the members of a model that predict.
 BlockLoss loss_of(const Outcome& f, const Model& model, const Folds& folds);
+/// The same on left-out paths, beside what the other paths leave open of the set-up.
+BlockLoss loss_on_paths(const Outcome& f, const Model& model, const Folds& paths);
 /// Whitened left-out residuals of all rows.
 Eigen::VectorXd residual_of(const Outcome& f, const Model& model, const Folds& folds,
                             Zeros zeros = Zeros::small);

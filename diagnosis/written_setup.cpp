@@ -71,7 +71,7 @@ Paths paths_of(const Prepared& p) {
 /// more than the gap, they say nothing of a gap. Known forms alone do no harm, or are as the model
 /// expects. A table of one path says nothing of others.
 bool holds_elsewhere(const Outcome& f, const Model& model, const Paths& paths, const Alone& alone) {
-    const double after = loss_of(f, model, paths.folds).mean();
+    const double after = loss_on_paths(f, model, paths.folds).mean();
     // What known forms explain without the tables does not rest on these.
     const double own = alone.blocks - loss_of(f, model, f.prepared.folds).mean();
     const bool known_forms =
@@ -117,7 +117,7 @@ void choose(const Outcome& f, const Paths& paths, Written& w) {
     const double rank = static_cast<double>(f.design.projection().rank());
     const double noise = f.judgement.floor * (1.0 + rank / std::max(1.0, f.design.rows()));
     const BlockLoss before = loss_of(f, w.model, f.prepared.folds);
-    const Alone alone{before.mean(), loss_of(f, w.model, paths.folds).mean(), noise};
+    const Alone alone{before.mean(), loss_on_paths(f, w.model, paths.folds).mean(), noise};
     const auto left = [&](const Model& m) {
         return residual_of(f, m, f.prepared.folds, Zeros::all);
     };

@@ -284,9 +284,7 @@ double LeftOut::surprise() const {
     return sum;
 }
 
-BlockLoss LeftOut::loss(const std::vector<bool>& fitted,
-                        const std::vector<bool>& predicting) const {
-    const Eigen::VectorXd left = residual(fitted, predicting);
+BlockLoss LeftOut::loss_of(const Eigen::VectorXd& left) const {
     BlockLoss loss{std::vector<double>(folds_.fold.size()),
                    std::vector<double>(folds_.fold.size())};
     for (std::size_t i = 0; i < folds_.group.size(); ++i) {
@@ -296,6 +294,39 @@ BlockLoss LeftOut::loss(const std::vector<bool>& fitted,
         loss.rows[g] += 1.0;
     }
     return loss;
+}
+
+BlockLoss LeftOut::loss(const std::vector<bool>& fitted,
+                        const std::vector<bool>& predicting) const {
+    return loss_of(residual(fitted, predicting));
+}
+
+/// What the rows outside of a fold tell of the set-up, beside the fitted members.
+Eigen::MatrixXd LeftOut::information_on_set_up(const Fold& fold,
+                                               const std::vector<bool>& fitted) const {
+    Eigen::MatrixXd told = fold.gram.topLeftCorner(known_, known_);
+    told.diagonal() += precision_.head(known_);
+    const std::vector<Eigen::Index> members = columns_of(fitted, false);
+    if (members.empty()) return told;
+    Eigen::MatrixXd own = fold.gram(members, members);
+    own.diagonal() += precision_(members);
+    Eigen::MatrixXd taken = fold.gram(members, Eigen::all).leftCols(known_);
+    own.llt().matrixL().solveInPlace(taken);
+    return told - taken.transpose() * taken;
+}
+
+BlockLoss LeftOut::loss_beside_set_up(const std::vector<bool>& fitted,
+                                      const std::vector<bool>& predicting) const {
+    Eigen::VectorXd left = residual(fitted, predicting);
+    for (const Fold& fold : fold_) {
+        if (fold.rows.empty() || known_ == 0) continue;
+        const auto set_up = fold.out.leftCols(known_);
+        const Eigen::VectorXd own = left(fold.rows);
+        const Eigen::MatrixXd told =
+            information_on_set_up(fold, fitted) + set_up.transpose() * set_up;
+        left(fold.rows) = own - set_up * told.llt().solve(set_up.transpose() * own);
+    }
+    return loss_of(left);
 }
 
 Folds place_folds(const emulator::Replay& replay, const TableForm& table) {

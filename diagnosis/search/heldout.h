@@ -71,6 +71,10 @@ class LeftOut {
     Eigen::VectorXd residual(const std::vector<bool>& fitted,
                              const std::vector<bool>& predicting) const;
     BlockLoss loss(const std::vector<bool>& fitted, const std::vector<bool>& predicting) const;
+    /// The same, but the set-up may differ in a fold as far as the other folds leave it open: where
+    /// they tell nothing of the cup of a bar, its readings judge the members alone.
+    BlockLoss loss_beside_set_up(const std::vector<bool>& fitted,
+                                 const std::vector<bool>& predicting) const;
     /// Squared left-out residuals of all members, relative to what the other folds leave uncertain
     /// of them: chi-squared of as many degrees of freedom as rows, times the variance of the noise,
     /// when the model holds.
@@ -88,6 +92,8 @@ class LeftOut {
         mutable Eigen::VectorXd mean;
     };
     Eigen::VectorXd fit(const Fold& fold, const std::vector<bool>& fitted) const;
+    Eigen::MatrixXd information_on_set_up(const Fold& fold, const std::vector<bool>& fitted) const;
+    BlockLoss loss_of(const Eigen::VectorXd& left) const;
     std::vector<Eigen::Index> columns_of(const std::vector<bool>& members, bool known) const;
 
     Folds folds_;

@@ -66,7 +66,8 @@ bool holds_between(Design& design, const Prepared& prepared, const Model& model,
     const LeftOut left(design, free, place_folds(prepared.replay, group.table), used);
     std::vector<bool> all(free.members.size(), true), rest = all;
     rest[position] = false;
-    const BlockLoss with = left.loss(all, all), without = left.loss(rest, rest);
+    const BlockLoss with = left.loss_beside_set_up(all, all),
+                    without = left.loss_beside_set_up(rest, rest);
     const double noise = model.variances.nu * model.variances.nu;
     if (without.mean() - with.mean() <=
         rules::between_least * std::max(1e-12, without.mean() - noise))
