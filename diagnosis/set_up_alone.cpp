@@ -1,5 +1,7 @@
 #include "diagnosis/set_up_alone.h"
 
+#include <algorithm>
+
 #include "diagnosis/search/solution.h"
 #include "estimation/ranked_least_squares.h"
 
@@ -16,13 +18,23 @@ Eigen::VectorXd left_by_set_up(const Prepared& p) {
            Eigen::Map<const Eigen::VectorXd>(read.data(), p.base.measured_mm.size());
 }
 
+/// Readings of the gap that is written as it is. What a model sets aside that has nothing but zeros
+/// is spoiled.
+const std::vector<bool>& rows_of(const Outcome& f) {
+    const bool zeros =
+        std::all_of(f.model.members.begin(), f.model.members.end(),
+                    [&](std::size_t m) { return f.design.group(m).kind == GroupKind::offset; });
+    return zeros ? f.used : f.beside_set_up;
+}
+
 }  // namespace
 
 setup::Setup set_up_alone(const Outcome& f) {
     const identification::BaseModel& base = f.prepared.base;
     Eigen::VectorXd weight = base.sigma_mm.cwiseInverse();
-    for (std::size_t i = 0; i < f.beside_set_up.size(); ++i)
-        if (!f.beside_set_up[i]) weight(static_cast<Eigen::Index>(i)) = 0.0;
+    const std::vector<bool>& counts = rows_of(f);
+    for (std::size_t i = 0; i < counts.size(); ++i)
+        if (!counts[i]) weight(static_cast<Eigen::Index>(i)) = 0.0;
     const Eigen::MatrixXd columns = weight.asDiagonal() * base.columns;
     Eigen::MatrixXd information = columns.transpose() * columns;
     Eigen::VectorXd product = columns.transpose() * weight.cwiseProduct(left_by_set_up(f.prepared));
