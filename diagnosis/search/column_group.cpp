@@ -35,6 +35,12 @@ bool is_course_of_time(const ColumnGroup& group) {
     return kind == thermal_drift || kind == thermal_expansion || kind == artefact_moved;
 }
 
+double log_prior_of_size(const ColumnGroup& group, double tau) {
+    constexpr double usual = 2.0;  // typical sizes, assumed
+    const bool drift = group.effect && group.effect->kind == effects::EffectKind::thermal_drift;
+    return drift ? -std::log1p(std::pow(tau / usual, 2)) : 0.0;
+}
+
 Eigen::VectorXd ColumnGroup::feature_values(const Eigen::VectorXd& coefficients) const {
     if (shape.size() == 0) return coefficients;
     return shape * coefficients;

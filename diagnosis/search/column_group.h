@@ -78,6 +78,11 @@ struct ColumnGroup {
 bool has_keys(const effects::Effect& effect);
 /// True for a driver of time, a drift, an expansion and a move of an artefact.
 bool is_course_of_time(const ColumnGroup& group);
+/// Log prior of the size of a drift, `tau` typical ones. Its time constant says how far it is after
+/// the time of the readings: many times the usual size is a rate that hardly any machine has, and
+/// what a few minutes show of it is a position that was measured in the order of time. 0 for other
+/// effects, which may have any size.
+double log_prior_of_size(const ColumnGroup& group, double tau);
 
 /// Sets the rows of sessions before a change to zero.
 void drop_sessions(Eigen::MatrixXd& columns, const emulator::Replay& replay,

@@ -257,7 +257,10 @@ Model tuned(Design& design, const SearchSetting& setting, Model model, int sweep
         design.equations(model.members), std::move(model.variances), setting.noise, sweeps);
     model.variances = std::move(best.variances);
     model.score = best.likelihood - setting.empty;
-    for (const std::size_t m : model.members) model.score += design.group(m).log_prior;
+    for (std::size_t k = 0; k < model.members.size(); ++k) {
+        const ColumnGroup& group = design.group(model.members[k]);
+        model.score += group.log_prior + log_prior_of_size(group, model.variances.tau[k]);
+    }
     if (is_impossible(design, model, best.mean)) model.score -= impossible;
     return model;
 }
@@ -269,7 +272,8 @@ bool same_cause(const ColumnGroup& a, const ColumnGroup& b) {
 
 Offer offer_of(const Design& design, std::size_t group, const estimation::GroupInformation& left) {
     Offer offer{group, estimation::group_gain(left), 0.0, left};
-    offer.value = offer.gain.mean + design.group(group).log_prior;
+    offer.value = offer.gain.mean + design.group(group).log_prior +
+                  log_prior_of_size(design.group(group), offer.gain.tau);
     return offer;
 }
 
