@@ -5,6 +5,7 @@
 #include "diagnosis/bent_sight.h"
 #include "diagnosis/measured_surface.h"
 #include "diagnosis/one_feed.h"
+#include "diagnosis/rounded_forms.h"
 #include "diagnosis/rules/rules.h"
 #include "diagnosis/search/solution.h"
 #include "diagnosis/verdict/line_of_form.h"
@@ -88,6 +89,7 @@ void doubt_look_alikes(const Outcome& found, std::vector<Claim>& claims) {
     doubt_measured_surface(found, claims);
     doubt_bent_sight(found, claims);
     doubt_contour_at_one_feed(found, claims);
+    doubt_rounded_forms(found, claims);
 }
 
 void tell_look_alikes(const Outcome& found, std::vector<Cause>& causes) {

@@ -19,7 +19,7 @@ namespace trunnion::diagnosis {
 std::optional<Judgement> doubted(const Outcome& found, const std::vector<Claim>& claims);
 
 /// Doubts claims of what something else does as well by the physics of the test: the measured
-/// surface, a line of sight that bends, one feed.
+/// surface, a line of sight that bends, one feed, the last digit.
 void doubt_look_alikes(const Outcome& found, std::vector<Claim>& claims);
 /// Says so of the causes.
 void tell_look_alikes(const Outcome& found, std::vector<Cause>& causes);

@@ -84,14 +84,23 @@ void sort_apart(std::vector<double>& values) {
     values.erase(std::unique(values.begin(), values.end(), same), values.end());
 }
 
+/// True where so many different values, seen so often, are multiples of so many digits by no
+/// chance. Values of neighbouring places may go together: half of them count.
+bool are_counts(std::size_t values, std::size_t seen, double digits) {
+    constexpr std::size_t fewest = 5;
+    constexpr double least_chance = 2e-3;
+    const double free =
+        std::max(static_cast<double>(values) - 2.0, 0.5 * static_cast<double>(seen));
+    return values >= fewest && std::pow(digits, -free) <= least_chance;
+}
+
 }  // namespace
 
-double counter_step(std::vector<double> values) {
-    constexpr std::size_t fewest = 10;
+double counter_step(std::vector<double> values, std::size_t seen) {
+    constexpr double no_digits = 1e6;            // values of full precision
     constexpr double near = 0.25, exact = 1e-6;  // of a step: on the way, and in the end
     const double digit = decimal_step(values);
     sort_apart(values);
-    if (values.size() < fewest) return 0.0;
     double step = HUGE_VAL;
     for (std::size_t k = 1; k < values.size(); ++k)
         step = std::min(step, values[k] - values[k - 1]);
@@ -109,18 +118,19 @@ double counter_step(std::vector<double> values) {
         const double count = (v - values.front()) / step;
         worst = std::max(worst, std::abs(count - std::round(count)));
     }
+    if (!are_counts(values.size(), seen, digit > 0.0 ? step / digit : no_digits)) return 0.0;
     return worst <= exact + 0.6 * digit / step ? step : 0.0;  // rounded, the first value too
 }
 
 namespace {
 
-/// Where, and for a log when, a value was read.
-using Place = std::pair<std::array<double, axis_count>, double>;
+/// Where, and for a log when, a value was read, and the value.
+using Seen = std::tuple<std::array<double, axis_count>, double, double>;
 
 /// True when each value was read twice on average, at different places or times.
-bool are_met_again(std::vector<double> values, const std::set<Place>& places) {
+bool are_met_again(std::vector<double> values, const std::set<Seen>& seen) {
     sort_apart(values);
-    return places.size() >= 2 * values.size();
+    return seen.size() >= 2 * values.size();
 }
 
 }  // namespace
@@ -155,16 +165,16 @@ Eigen::VectorXd rounding(const records::ReadingTable& table, const emulator::Rep
         const records::Reading& first = table.rows[replay.table_row(rows.front())];
         const bool log = first.device == records::Device::axis;
         std::vector<double> values, counts;
-        std::set<Place> places;
+        std::set<Seen> seen;
         for (const std::size_t i : rows) {
             const records::Reading& row = table.rows[replay.table_row(i)];
             add_numbers(row, replay.contact(i), values);
             counts.push_back(values.back());
-            places.insert({row.commanded.value, log ? row.time_s : 0.0});
+            seen.insert({row.commanded.value, log ? row.time_s : 0.0, counts.back()});
         }
         if (log) sort_apart(counts);
         const double digit = log ? decimal_step(counts) : 0.0;
-        if (!are_met_again(counts, places) && !(log && vary(counts))) counts.clear();
+        if (!are_met_again(counts, seen) && !(log && vary(counts))) counts.clear();
         // A log that stands still most of the time repeats a few round positions.
         if (log) {
             std::sort(values.begin(), values.end());
@@ -172,7 +182,7 @@ Eigen::VectorXd rounding(const records::ReadingTable& table, const emulator::Rep
         }
         const double spread = spread_of(
             std::max({log ? decimal_step(values) : decimal_step_as_shown(values, first.angular),
-                      digit, counter_step(std::move(counts))}));
+                      digit, counter_step(std::move(counts), log ? 0 : seen.size())}));
         for (const std::size_t i : rows)
             spread_mm(static_cast<Eigen::Index>(i)) = first.angular ? rad_from_deg(spread) : spread;
     }

@@ -14,9 +14,10 @@ namespace trunnion::identification {
 double decimal_step(const std::vector<double>& values);
 
 /// The step of a counter: that of which all values are multiples from the first one on, within the
-/// rounding of their last decimal digit. 0 where there is none, and for fewer than
-/// ten different values.
-double counter_step(std::vector<double> values);
+/// rounding of their last decimal digit. 0 where there is none, for fewer than five
+/// different values, and where so few may be multiples of so few digits by chance (0.002). `seen`:
+/// at how many places different values were read, if that is known.
+double counter_step(std::vector<double> values, std::size_t seen = 0);
 
 /// Standard deviation of each device row by the last digit or count of its values, mm or rad: step
 /// / sqrt(12). Steps are looked for in mm and in degrees. Of a servo log the digit is that of

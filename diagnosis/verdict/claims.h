@@ -25,6 +25,7 @@ effects::EffectKind motion_of(const ColumnGroup& group);
 inline constexpr const char* machine_drift = "machine.drift";
 /// Name of a rival: the table is mistaken. No setup contains it.
 inline constexpr const char* mistaken_readings = "readings.mistaken";
+inline constexpr const char* rounded_readings = "readings.rounded";
 
 struct Claim {
     std::size_t position = 0;  ///< in the model's members
