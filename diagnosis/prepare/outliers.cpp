@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
+#include <utility>
 
 #include "diagnosis/rules/rules.h"
 #include "estimation/projection.h"
@@ -30,33 +32,67 @@ double largest_by_chance(double n) {
     return std::sqrt(2.0 * std::log(std::max(2.0, n))) + 1.0;
 }
 
+/// Rows in ascending order, numbered among all of their kind.
+struct Hit {
+    std::vector<std::size_t> numbers;
+    std::size_t all = 0;  ///< of the kind
+};
+
+/// The kinds are told apart: probe readings beside many of a ballbar stand close to each other in
+/// the table, however they are spread over the visits.
+std::map<records::Device, Hit> by_device(const std::vector<std::size_t>& rows,
+                                         const std::vector<records::Device>& devices) {
+    std::map<records::Device, Hit> kinds;
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < devices.size(); ++i) {
+        Hit& hit = kinds[devices[i]];
+        if (next < rows.size() && rows[next] == i) {
+            hit.numbers.push_back(hit.all);
+            ++next;
+        }
+        ++hit.all;
+    }
+    return kinds;
+}
+
 /// True when the rows are in three or more neighbouring blocks (poses, passes). One bad pose may
 /// spoil all its readings; random blocks rarely are neighbours.
 bool crowded(const std::vector<std::size_t>& rows, const std::vector<NoiseBlock>& blocks) {
-    std::vector<std::size_t> block_of;
-    for (std::size_t b = 0; b < blocks.size(); ++b)
-        for (const Eigen::Index row : blocks[b].rows) {
-            block_of.resize(std::max(block_of.size(), static_cast<std::size_t>(row) + 1));
-            block_of[static_cast<std::size_t>(row)] = b;
-        }
-    std::set<std::size_t> hit;
-    for (const std::size_t row : rows) hit.insert(block_of[row]);
-    if (hit.size() < 3) return false;
-    const auto close = std::max<std::size_t>(1, blocks.size() / (5 * hit.size()));
-    std::size_t pairs = 0;
-    for (auto it = std::next(hit.begin()); it != hit.end(); ++it)
-        pairs += *it - *std::prev(it) <= close ? 1 : 0;
-    return 10 * pairs > 4 * hit.size();
+    std::map<records::Device, std::size_t> count;
+    std::map<std::size_t, std::pair<records::Device, std::size_t>> block_of;  // by row
+    for (const NoiseBlock& block : blocks) {
+        for (const Eigen::Index row : block.rows)
+            block_of[static_cast<std::size_t>(row)] = {block.device, count[block.device]};
+        ++count[block.device];
+    }
+    std::map<records::Device, std::set<std::size_t>> hits;
+    for (const std::size_t row : rows) hits[block_of[row].first].insert(block_of[row].second);
+    for (const auto& [device, hit] : hits) {
+        if (hit.size() < 3) continue;
+        const auto close = std::max<std::size_t>(1, count[device] / (5 * hit.size()));
+        std::size_t pairs = 0;
+        for (auto it = std::next(hit.begin()); it != hit.end(); ++it)
+            pairs += *it - *std::prev(it) <= close ? 1 : 0;
+        if (10 * pairs > 4 * hit.size()) return true;
+    }
+    return false;
 }
 
 /// The same within one pass, whose readings are one block. With random rows 18 of 100 neighbours
 /// are closer than a fifth of the mean distance.
-bool crowded(const std::vector<std::size_t>& rows, std::size_t all) {
+bool crowded(const Hit& hit) {
+    const std::vector<std::size_t>& rows = hit.numbers;
     if (rows.size() <= 8) return false;
-    const std::size_t close = std::max<std::size_t>(2, all / (5 * rows.size()));
+    const std::size_t close = std::max<std::size_t>(2, hit.all / (5 * rows.size()));
     std::size_t pairs = 0;
     for (std::size_t k = 1; k < rows.size(); ++k) pairs += rows[k] - rows[k - 1] <= close ? 1 : 0;
     return 10 * pairs > 4 * rows.size();
+}
+
+bool crowded(const std::vector<std::size_t>& rows, const std::vector<records::Device>& devices) {
+    const auto kinds = by_device(rows, devices);
+    return std::any_of(kinds.begin(), kinds.end(),
+                       [](const auto& kind) { return crowded(kind.second); });
 }
 
 bool too_many(std::size_t count, std::size_t all) {
@@ -64,6 +100,12 @@ bool too_many(std::size_t count, std::size_t all) {
 }
 
 }  // namespace
+
+std::vector<records::Device> devices_of(const emulator::Replay& replay) {
+    std::vector<records::Device> devices;
+    for (std::size_t i = 0; i < replay.size(); ++i) devices.push_back(replay.contact(i).device);
+    return devices;
+}
 
 std::vector<std::size_t> lone_probe_readings(const Prepared& prepared,
                                              const std::vector<bool>& used) {
@@ -94,11 +136,12 @@ std::vector<std::size_t> lone_probe_readings(const Prepared& prepared,
         if (too_many(lone.size(), used.size())) return {};
     }
     std::sort(lone.begin(), lone.end());
-    const bool keep = crowded(lone, used.size()) || crowded(lone, prepared.blocks);
+    const bool keep = crowded(lone, devices_of(prepared.replay)) || crowded(lone, prepared.blocks);
     return keep ? std::vector<std::size_t>{} : lone;
 }
 
-std::vector<std::size_t> wild_readings(const Eigen::VectorXd& left, const std::vector<bool>& used) {
+std::vector<std::size_t> wild_readings(const Eigen::VectorXd& left, const std::vector<bool>& used,
+                                       const std::vector<records::Device>& devices) {
     std::vector<double> size;
     for (std::size_t i = 0; i < used.size(); ++i)
         if (used[i]) size.push_back(std::abs(left(static_cast<Eigen::Index>(i))));
@@ -107,7 +150,7 @@ std::vector<std::size_t> wild_readings(const Eigen::VectorXd& left, const std::v
     std::vector<std::size_t> wild;
     for (std::size_t i = 0; i < used.size(); ++i)
         if (used[i] && std::abs(left(static_cast<Eigen::Index>(i))) > limit) wild.push_back(i);
-    const bool keep = too_many(wild.size(), used.size()) || crowded(wild, used.size());
+    const bool keep = too_many(wild.size(), used.size()) || crowded(wild, devices);
     return keep ? std::vector<std::size_t>{} : wild;
 }
 

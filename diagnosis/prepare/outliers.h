@@ -5,15 +5,19 @@
 
 namespace trunnion::diagnosis {
 
+/// The device of each row.
+std::vector<records::Device> devices_of(const emulator::Replay& replay);
+
 /// Probe readings far from a fit of the set-up alone, the worst first, with a new fit each time.
 /// Not for the ballbar, where a single reading at each reversal may be the only sign of a spike.
 /// Returns device rows in ascending order; empty when there are more than 4 % of them or they are
-/// clustered.
+/// clustered among those of their device.
 std::vector<std::size_t> lone_probe_readings(const Prepared& prepared,
                                              const std::vector<bool>& used);
 
 /// Readings of `used` far from the prediction of a model (`left`: residuals divided by the noise),
 /// by the same rule.
-std::vector<std::size_t> wild_readings(const Eigen::VectorXd& left, const std::vector<bool>& used);
+std::vector<std::size_t> wild_readings(const Eigen::VectorXd& left, const std::vector<bool>& used,
+                                       const std::vector<records::Device>& devices);
 
 }  // namespace trunnion::diagnosis

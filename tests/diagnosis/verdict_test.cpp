@@ -54,10 +54,11 @@ TEST_CASE("few and scattered readings are wild, many or neighbours are an effect
     Eigen::VectorXd quiet(rows);
     for (double& v : quiet) v = std::clamp(random.normal(), -3.0, 3.0);
     std::vector<bool> used(rows, true);
+    std::vector<records::Device> devices(rows, records::Device::ballbar);
     const auto wild = [&](int first, int step, int count) {
         Eigen::VectorXd left = quiet;
         for (int k = 0; k < count; ++k) left(first + k * step) = k % 2 ? 12.0 : -12.0;
-        return diagnosis::wild_readings(left, used);
+        return diagnosis::wild_readings(left, used, devices);
     };
     CHECK(wild(0, 1, 0).empty());
     CHECK(wild(20, 100, 3) == std::vector<std::size_t>{20, 120, 220});
@@ -65,6 +66,11 @@ TEST_CASE("few and scattered readings are wild, many or neighbours are an effect
     CHECK(wild(10, 22, 17).empty());       // more
     CHECK(wild(100, 1, 12).empty());       // side by side
     CHECK(wild(100, 1, 8).size() == 8);    // too few to be told from chance
+    // A tenth of the table is of a probe: its readings count among themselves.
+    CHECK(wild(2, 4, 10).empty());
+    std::fill_n(devices.begin(), 40, records::Device::sphere);
+    CHECK(wild(2, 4, 10).size() == 10);
+    CHECK(wild(2, 1, 10).empty());
     used[120] = false;
     CHECK(wild(20, 100, 3) == std::vector<std::size_t>{20, 220});
 }
