@@ -141,9 +141,9 @@ void describe_size(const Outcome& f, const Solution& solution, Diagnosis& d) {
     d.notes = base.notes;
     if (d.outliers > 0) d.notes.push_back(set_aside_words(f));
     d.only_scatter = f.judgement.only_scatter;
-    if (f.judgement.scatter > rules::most_scatter)
+    if (f.judgement.scatter > rules::told_scatter)
         d.notes.push_back(fmt::format(
-            "repeated readings scatter {:.0f} times as much as is stated of the device: "
+            "repeated readings scatter {:.1f} times as much as is stated of the device: "
             "the noise is that of the repeats",
             f.judgement.scatter));
     add_resting(f.prepared, d.unseen);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/units.h"
+#include "diagnosis/groups/few_places.h"
 #include "estimation/free_form.h"
 
 namespace trunnion::diagnosis {
@@ -37,7 +38,10 @@ bool holds_at_places(const Outcome& f, std::size_t group) {
     const auto at = std::find(f.model.members.begin(), f.model.members.end(), group);
     const auto position = static_cast<std::size_t>(at - f.model.members.begin());
     if (own.kind != GroupKind::table || f.judgement.interpolates[position]) return false;
-    if (own.table.knots.empty()) return holds_at_places_of_turn(f, own);
+    // Harmonics are written for all angles: those that may be the alias of finer ones are not.
+    if (own.table.knots.empty())
+        return holds_at_places_of_turn(f, own) &&
+               !is_alias_of_finer(f.design, f.prepared, f.model, position);
     for (std::size_t i = 0; i < f.prepared.replay.size(); ++i) {
         const emulator::Contact& contact = f.prepared.replay.contact(i);
         if (contact.device != records::Device::linear && contact.device != records::Device::angle &&

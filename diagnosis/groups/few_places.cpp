@@ -13,9 +13,15 @@
 namespace trunnion::diagnosis {
 namespace {
 
-/// The widest way between two neighbouring positions of a rotary axis, rad. Over more than a turn
-/// the positions of all turns are one circle.
-double widest_step_rad(const Prepared& prepared, Axis axis) {
+constexpr double even = 0.01;  ///< positions in equal steps are rounded
+
+/// The ways between neighbouring positions of a rotary axis, rad. Over more than a turn the
+/// positions of all turns are one circle.
+struct Steps {
+    double widest_rad = 0.0, mean_rad = 0.0;
+    bool are_equal() const { return widest_rad <= (1.0 + even) * mean_rad; }
+};
+Steps steps_of(const Prepared& prepared, Axis axis) {
     std::set<double> places_rad;
     for (std::size_t i = 0; i < prepared.replay.size(); ++i)
         places_rad.insert(prepared.replay.sample(i).position[axis]);
@@ -26,12 +32,17 @@ double widest_step_rad(const Prepared& prepared, Axis axis) {
         circle_rad.insert(*circle_rad.begin() + 2.0 * pi);
         places_rad = std::move(circle_rad);
     }
-    double widest = 0.0, before = *places_rad.begin();
+    constexpr double same_rad = 1e-6;
+    Steps steps;
+    double before = *places_rad.begin(), count = 0.0;
     for (const double place : places_rad) {
-        widest = std::max(widest, place - before);
+        if (place - before < same_rad) continue;
+        steps.widest_rad = std::max(steps.widest_rad, place - before);
         before = place;
+        count += 1.0;
     }
-    return widest;
+    steps.mean_rad = (before - *places_rad.begin()) / std::max(1.0, count);
+    return steps;
 }
 
 /// True for harmonics of a turn with a wave that has a crest and a trough between two neighbouring
@@ -40,8 +51,7 @@ bool waves_between_places(const Prepared& prepared, const ColumnGroup& group, Ax
     int order = 0;
     for (const std::size_t k : group.parameters)
         order = std::max(order, group.effect->parameters[k].order);
-    constexpr double even = 1.01;  // positions in equal steps are rounded
-    return order > 0 && widest_step_rad(prepared, axis) > even * pi / order;
+    return order > 0 && steps_of(prepared, axis).widest_rad > (1.0 + even) * pi / order;
 }
 
 bool shows_no_displacement(const Prepared& p, std::size_t row) {
@@ -149,6 +159,26 @@ bool bends_at_few_places(const Design& design, const Prepared& prepared, const M
     return place_count(prepared, axis) < rules::bend_places &&
            (group.columns() > 1 || group.effect->kind == effects::EffectKind::straightness ||
             std::any_of(model.members.begin(), model.members.end(), bends));
+}
+
+bool is_alias_of_finer(Design& design, const Prepared& prepared, const Model& model,
+                       std::size_t position) {
+    constexpr double most_part = 0.2;  // of the squares of a table
+    const ColumnGroup& group = design.group(model.members[position]);
+    const TableForm& table = group.table;
+    if (group.kind != GroupKind::table || !table.knots.empty()) return false;
+    const Steps steps = steps_of(prepared, table.axis.axis);
+    if (!steps.are_equal()) return false;
+    const Fit fit = fit_of(design, model);
+    const Eigen::VectorXd values =
+        group.feature_values(fit.mean.segment(fit.first[position], fit.size[position]));
+    double fine = 0.0;
+    for (Eigen::Index k = 0; k < values.size(); ++k) {
+        const auto harmonic = static_cast<int>(k % table.per_direction()) / 2;
+        if (3.0 * (table.first_order + harmonic) * steps.mean_rad > 2.0 * pi * (1.0 + even))
+            fine += values(k) * values(k);
+    }
+    return fine > most_part * values.squaredNorm();
 }
 
 }  // namespace trunnion::diagnosis

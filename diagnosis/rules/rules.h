@@ -67,6 +67,9 @@ constexpr double mistaken_left = 0.7;     ///< most of that which is left with a
 constexpr double beside_mistaken = 0.05;  ///< probability at most of a cause beside a wrong table
 
 constexpr double most_scatter = 4.0;    ///< of repeats, relative to what is stated: more is a gap
+constexpr double told_scatter = 1.5;    ///< ... : more is said
+constexpr double most_slow = 4.0;       ///< variance left of a bar, in that of its noise: more is a
+                                        ///< course of time, which whitening conceals (assumed)
 constexpr double most_unstated = 10.0;  ///< noise that nobody states, in what is usual of the
                                         ///< device: more is a gap (assumed)
 constexpr double most_outliers = 0.04;  ///< of the readings: more are a gap of some kind

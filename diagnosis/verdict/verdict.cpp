@@ -7,9 +7,9 @@
 
 #include "diagnosis/groups/few_places.h"
 #include "diagnosis/groups/ripples.h"
-#include "diagnosis/prepare/near_readings.h"
 #include "diagnosis/prepare/places.h"
 #include "diagnosis/rules/rules.h"
+#include "diagnosis/verdict/alike_readings.h"
 #include "estimation/distributions.h"
 #include "estimation/ranked_least_squares.h"
 
@@ -224,30 +224,6 @@ double scatter_of(const Prepared& p, const NoiseModel& noise) {
     return most;
 }
 
-/// H. `unknowns`: of the set-up, for each reading.
-double part_of(const Judgement& j, double unknowns) {
-    const double excess = j.before - j.floor * (1.0 + unknowns);
-    return excess > 0.0 ? (j.before - j.after) / excess : 0.0;
-}
-
-/// A gap where what is left of neighbours is alike: noise is then at most what they do not share.
-/// Successive rows of a log are alike within the last digit, too: that is no gap.
-void see_neighbours(const Prepared& p, const std::vector<bool>& used,
-                    const Eigen::VectorXd& remainder, double unknowns, Judgement& j) {
-    constexpr double beyond_digit = 2.0;
-    const auto rows = static_cast<Eigen::Index>(used.size());
-    const Eigen::VectorXd left = remainder.head(rows), one = Eigen::VectorXd::Ones(rows);
-    NeighbourNoise near = noise_of_neighbours(p.replay, used, left, one);
-    const bool log = near.variance == 0.0 && j.floor > beyond_digit;
-    if (log) near = noise_of_successive(p.replay, p.blocks, used, left, one);
-    if (near.alike < rules::alike || near.variance >= j.floor) return;
-    j.gap = true;
-    j.alike_near = !log;
-    j.alike_in_time = log;
-    j.floor = near.variance;
-    j.part = part_of(j, unknowns);
-}
-
 }  // namespace
 
 Judgement judged(FoldColumns& rows, const Prepared& prepared, const Model& model,
@@ -285,6 +261,7 @@ Judgement judged(FoldColumns& rows, const Prepared& prepared, const Model& model
                                 shows_two_phases(prepared, *group.effect, group.keys);
         j.interpolates.push_back(
             j.equal_periods.back().empty() && !alternates && !is_other_course(design, model, k) &&
+            !is_alias_of_finer(design, prepared, model, k) &&
             (group.kind != GroupKind::table || holds_between(design, prepared, model, k, used)));
     }
     const Sizes sizes = sizes_of(design, model, j.floor, j.large);
@@ -307,6 +284,7 @@ Judgement judged(FoldColumns& rows, const Prepared& prepared, const Model& model
     // Without repeats, scatter may be structure finer than the places as well as noise.
     const bool unstated = noise.model.source == NoiseSource::assumed && !prepared.base.noise_given;
     j.gap = j.gap || j.only_scatter || (unstated && std::sqrt(nu2) > rules::most_unstated);
+    if (!j.gap && j.repeated) see_slow_course(prepared, design, model, noise.model, j);
     if (!j.gap && !j.repeated) see_neighbours(prepared, used, sizes.remainder, unknowns, j);
     return j;
 }

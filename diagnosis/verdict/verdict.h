@@ -29,7 +29,7 @@ struct Judgement {
     double scatter = 1.0;       ///< of repeats, relative to the noise that is stated of the devices
     bool only_scatter = false;  ///< the gap is nothing but that
     bool alike_near = false;    ///< the gap is that neighbours are off alike
-    bool alike_in_time = false;  ///< ... that successive rows of a log are
+    bool alike_in_time = false;  ///< ... that successive readings of a pass are
     bool between_places = true;
     std::vector<bool> large;         ///< members that are large zeros
     std::vector<bool> interpolates;  ///< members: tables valid between their positions, ripples of
