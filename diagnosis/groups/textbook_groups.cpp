@@ -270,10 +270,40 @@ Eigen::Index add_effects(Design& design, const Prepared& prepared, const Whitene
 
 }  // namespace
 
+namespace {
+
+/// The angles of an axis with a bow about its zero beside the slope (E.. = p1 u + p2 u^2): few
+/// numbers in place of a table, whose mean would be a squareness or the zero of a rotary axis.
+void add_bowed_angles(Design& design, const Prepared& prepared, const Whitener& whitener) {
+    constexpr double less_usual = -0.7;  // ln 0.5 (assumed)
+    for (std::size_t k = 0, count = design.groups().size(); k < count; ++k) {
+        const ColumnGroup sloped = design.group(k);
+        if (sloped.kind != GroupKind::textbook || design.groups()[k].hidden ||
+            sloped.effect->kind != effects::EffectKind::angular || sloped.shape.size() > 0)
+            continue;
+        std::set<char> turns;
+        for (const std::size_t j : sloped.parameters)
+            turns.insert(sloped.effect->parameters[j].name[1]);
+        const Material material = material_of(
+            prepared, *sloped.effect, sloped.effect->zeros(), {},
+            [&](const effects::EffectParameter& q) { return turns.contains(q.name[1]); });
+        if (material.parameters.size() <= sloped.parameters.size()) continue;
+        Eigen::MatrixXd white = material.columns;
+        whitener.apply(white);
+        ColumnGroup bowed = group_of(*sloped.effect, sloped.effect->zeros(), material,
+                                     design.add_features(white), {});
+        bowed.log_prior = sloped.log_prior + less_usual;
+        design.add(std::move(bowed));
+    }
+}
+
+}  // namespace
+
 Eigen::Index add_textbook_groups(Design& design, const Prepared& prepared,
                                  const Whitener& whitener) {
     const Eigen::Index added = add_effects(design, prepared, whitener, {});
     favour_motions_over_angles(design);
+    add_bowed_angles(design, prepared, whitener);
     return added;
 }
 
