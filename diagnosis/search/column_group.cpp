@@ -36,9 +36,17 @@ bool is_course_of_time(const ColumnGroup& group) {
 }
 
 double log_prior_of_size(const ColumnGroup& group, double tau) {
-    constexpr double usual = 2.0;  // typical sizes, assumed
-    const bool drift = group.effect && group.effect->kind == effects::EffectKind::thermal_drift;
-    return drift ? -std::log1p(std::pow(tau / usual, 2)) : 0.0;
+    constexpr double usual = 2.0, usual_s = 1800.0;  // sizes and time constant, assumed
+    if (!group.effect || group.effect->kind != effects::EffectKind::thermal_drift) return 0.0;
+    double grown = 1.0;
+    for (std::size_t k = 0; k < group.keys.size(); ++k) {
+        const effects::EffectParameter& p = group.effect->parameters[k];
+        if (p.name != "tau_s") continue;
+        const double readings_s = p.grid.back() / 3.0;  // thermal_drift() looks up to there
+        grown = std::max(
+            grown, std::expm1(-readings_s / group.keys[k]) / std::expm1(-readings_s / usual_s));
+    }
+    return -std::log1p(std::pow(grown * tau / usual, 2));
 }
 
 Eigen::VectorXd ColumnGroup::feature_values(const Eigen::VectorXd& coefficients) const {

@@ -78,10 +78,10 @@ struct ColumnGroup {
 bool has_keys(const effects::Effect& effect);
 /// True for a driver of time, a drift, an expansion and a move of an artefact.
 bool is_course_of_time(const ColumnGroup& group);
-/// Log prior of the size of a drift, `tau` typical ones. Its time constant says how far it is after
-/// the time of the readings: many times the usual size is a rate that hardly any machine has, and
-/// what a few minutes show of it is a position that was measured in the order of time. 0 for other
-/// effects, which may have any size.
+/// Log prior of the size of a drift, `tau` typical ones: at its end, or within the time of the
+/// readings in what a usual one of half an hour does there, whichever is more. Many times that
+/// hardly any machine drifts, and what a few minutes show is a position that was measured in the
+/// order of time. 0 for other effects, which may have any size.
 double log_prior_of_size(const ColumnGroup& group, double tau);
 
 /// Sets the rows of sessions before a change to zero.

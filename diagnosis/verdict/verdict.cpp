@@ -86,6 +86,18 @@ bool is_other_course(const Design& design, const Model& model, std::size_t posit
                        [&](std::size_t m) { return design.group(m).of_time; });
 }
 
+/// True for a member that may be written for positions and times between those of the readings.
+bool is_valid_between(Design& design, const Prepared& prepared, const Model& model,
+                      std::size_t position, const std::vector<bool>& used) {
+    const ColumnGroup& group = design.group(model.members[position]);
+    const bool alternates =
+        group.kind == GroupKind::periodic && shows_two_phases(prepared, *group.effect, group.keys);
+    if (alternates || is_other_course(design, model, position)) return false;
+    return group.kind != GroupKind::table ||
+           (!is_alias_of_finer(design, prepared, model, position) &&
+            holds_between(design, prepared, model, position, used));
+}
+
 /// Squares of errors that each place of an axis may have for itself: what is left, and tables that
 /// do not hold between their places.
 double square_of_places(const Design& design, const Model& model, const Sizes& sizes,
@@ -255,14 +267,9 @@ Judgement judged(FoldColumns& rows, const Prepared& prepared, const Model& model
         std::vector<bool> rest = all, rest_predicting = predicting;
         rest[k] = rest_predicting[k] = false;
         j.support.push_back({saving_of(left.loss(rest, rest_predicting), after)});
-        const ColumnGroup& group = design.group(model.members[k]);
-        j.equal_periods.push_back(other_periods_of(prepared, group));
-        const bool alternates = group.kind == GroupKind::periodic &&
-                                shows_two_phases(prepared, *group.effect, group.keys);
-        j.interpolates.push_back(
-            j.equal_periods.back().empty() && !alternates && !is_other_course(design, model, k) &&
-            !is_alias_of_finer(design, prepared, model, k) &&
-            (group.kind != GroupKind::table || holds_between(design, prepared, model, k, used)));
+        j.equal_periods.push_back(other_periods_of(prepared, design.group(model.members[k])));
+        j.interpolates.push_back(j.equal_periods.back().empty() &&
+                                 is_valid_between(design, prepared, model, k, used));
     }
     const Sizes sizes = sizes_of(design, model, j.floor, j.large);
     mark_accidents(design, prepared, model, sizes, j);
