@@ -84,12 +84,20 @@ std::vector<bool> predicting_elsewhere(const Outcome& f, const Folds& paths) {
     std::vector<bool> kept = f.judgement.interpolates;
     for (std::size_t k = 0; k < kept.size(); ++k)
         kept[k] = kept[k] || holds_at_places(f, f.model.members[k]);
-    for (BlockLoss with = loss(kept);; with = loss(kept)) {
+    // What holds at the places alone does there what the others do, and says nothing of them.
+    const auto beside = [&](std::size_t k) {
+        std::vector<bool> others = kept;
+        for (std::size_t m = 0; m < others.size(); ++m)
+            if (f.judgement.interpolates[k] && !f.judgement.interpolates[m]) others[m] = false;
+        return others;
+    };
+    for (;;) {
         std::optional<std::size_t> worst;
         double least = 1e300;
         for (std::size_t k = 0; k < kept.size(); ++k) {
             if (!kept[k] || !has_searched_form(f.design.group(f.model.members[k]).kind)) continue;
-            std::vector<bool> rest = kept;
+            std::vector<bool> rest = beside(k);
+            const BlockLoss with = loss(rest);
             rest[k] = false;
             const Saving saving = saving_of(loss(rest), with);
             const double contribution = parts.col(static_cast<Eigen::Index>(k)).squaredNorm();
