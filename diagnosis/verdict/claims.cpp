@@ -284,11 +284,24 @@ Eigen::VectorXd part_of_cause(const Design& design, const Model& model, const Si
     return sum;
 }
 
+/// True for a member of which the columns of the other causes do less than four fifths.
+bool stands_apart(const Design& design, const Model& model, std::size_t position) {
+    constexpr double least_outside = 0.2;
+    std::set<Eigen::Index> others;
+    for (std::size_t k = 0; k < model.members.size(); ++k)
+        if (const ColumnGroup& group = design.group(model.members[k]);
+            k != position && is_cause(group.kind))
+            others.insert(group.features.begin(), group.features.end());
+    return design.outside(model.members[position], {others.begin(), others.end()}) >= least_outside;
+}
+
 /// True for a cause that takes back what the others do: the correction of a form that is not
-/// theirs. A small one of known form may be against a large one by chance.
+/// theirs. A small one of known form may be against a large one by chance, or by its nature, as a
+/// play that runs ahead is against a lag: it is no correction where the others cannot do its work.
 bool works_against_others(const Design& design, const Model& model, const Sizes& sizes,
                           std::size_t position) {
     constexpr double by_chance = -0.3;  // cosine between both
+    constexpr double small = 0.1;       // of the squares of the others
     if (sizes.along[position] > 0.0) return false;
     const ColumnGroup& group = design.group(model.members[position]);
     const Eigen::VectorXd own = part_of_cause(design, model, sizes, group.name);
@@ -298,7 +311,10 @@ bool works_against_others(const Design& design, const Model& model, const Sizes&
             others += sizes.parts.col(static_cast<Eigen::Index>(k));
     const double along = own.dot(others);
     if (own.squaredNorm() + along > 0.0) return false;  // with its other forms it does something
-    return group.kind == GroupKind::table || along < by_chance * own.norm() * others.norm();
+    if (group.kind == GroupKind::table) return true;
+    return along < by_chance * own.norm() * others.norm() &&
+           (own.squaredNorm() > small * others.squaredNorm() ||
+            !stands_apart(design, model, position));
 }
 
 /// Squares of all causes, each by itself, relative to the gap.
