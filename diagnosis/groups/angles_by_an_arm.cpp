@@ -85,6 +85,11 @@ void share_prior_of_same(Design& design, const std::vector<std::size_t>& arms) {
 
 }  // namespace
 
+bool are_told_by_themselves(const Design& design, const ColumnGroup& angles) {
+    const std::vector<Eigen::Index> others = features_named_first(design, angles);
+    return others.empty() || turns_of(design, angles).by_an_arm.empty();
+}
+
 void favour_motions_over_angles(Design& design) {
     std::vector<std::size_t> arms;
     for (std::size_t k = 0, count = design.groups().size(); k < count; ++k) {

@@ -14,4 +14,7 @@ namespace trunnion::diagnosis {
 /// are in the design.
 void favour_motions_over_angles(Design& design);
 
+/// True where the readings see all turns of the angles through several arms.
+bool are_told_by_themselves(const Design& design, const ColumnGroup& angles);
+
 }  // namespace trunnion::diagnosis

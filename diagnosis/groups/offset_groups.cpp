@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <string>
+#include <utility>
 
 #include "base/units.h"
 #include "diagnosis/groups/candidate_groups.h"
@@ -20,17 +21,19 @@ bool probes(const emulator::Contact& contact) {
     return contact.device == records::Device::sphere || contact.device == records::Device::touch;
 }
 
-/// Index of each device row's test among those accepted by `takes`, -1 for other rows.
+/// Index of each device row's test among those accepted by `takes`, -1 for other rows. A test of
+/// the same name in another session is zeroed anew.
 std::vector<Eigen::Index> tests_of(const Prepared& p,
                                    const std::function<bool(const emulator::Contact&)>& takes,
                                    Eigen::Index& count) {
-    std::map<std::string, Eigen::Index> met;
+    std::map<std::pair<std::size_t, std::string>, Eigen::Index> met;
     std::vector<Eigen::Index> test(p.replay.size(), -1);
     for (std::size_t i = 0; i < p.replay.size(); ++i)
         if (takes(p.replay.contact(i)))
-            test[i] = met.try_emplace(p.table.rows[p.replay.table_row(i)].test,
-                                      static_cast<Eigen::Index>(met.size()))
-                          .first->second;
+            test[i] =
+                met.try_emplace({p.replay.session(i), p.table.rows[p.replay.table_row(i)].test},
+                                static_cast<Eigen::Index>(met.size()))
+                    .first->second;
     count = static_cast<Eigen::Index>(met.size());
     return test;
 }

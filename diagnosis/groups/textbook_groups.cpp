@@ -279,7 +279,8 @@ void add_bowed_angles(Design& design, const Prepared& prepared, const Whitener& 
     for (std::size_t k = 0, count = design.groups().size(); k < count; ++k) {
         const ColumnGroup sloped = design.group(k);
         if (sloped.kind != GroupKind::textbook || design.groups()[k].hidden ||
-            sloped.effect->kind != effects::EffectKind::angular || sloped.shape.size() > 0)
+            sloped.effect->kind != effects::EffectKind::angular || sloped.shape.size() > 0 ||
+            !are_told_by_themselves(design, sloped))
             continue;
         std::set<char> turns;
         for (const std::size_t j : sloped.parameters)
@@ -293,7 +294,7 @@ void add_bowed_angles(Design& design, const Prepared& prepared, const Whitener& 
         ColumnGroup bowed = group_of(*sloped.effect, sloped.effect->zeros(), material,
                                      design.add_features(white), {});
         bowed.log_prior = sloped.log_prior + less_usual;
-        design.add(std::move(bowed));
+        design.keep_as_form(design.add(std::move(bowed)));
     }
 }
 

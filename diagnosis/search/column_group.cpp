@@ -36,7 +36,7 @@ bool is_course_of_time(const ColumnGroup& group) {
 }
 
 double log_prior_of_size(const ColumnGroup& group, double tau) {
-    constexpr double usual = 2.0, usual_s = 1800.0;  // sizes and time constant, assumed
+    constexpr double usual = 1.0, usual_s = 1800.0;  // size and time constant, assumed
     if (!group.effect || group.effect->kind != effects::EffectKind::thermal_drift) return 0.0;
     double grown = 1.0;
     for (std::size_t k = 0; k < group.keys.size(); ++k) {

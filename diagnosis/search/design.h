@@ -52,6 +52,7 @@ class Design {
         double whole = 0.0;       ///< squared sum of its columns before projection
         bool hidden = false;
         bool only_rival = false;  ///< hidden, but may be named as a rival of a claim
+        bool only_form = false;   ///< never offered, but a member may change into it
         std::optional<estimation::ReducedGroup> reduced;  ///< of its gram
         /// True when a typical change moves the readings noticeably and the set-up cannot absorb
         /// it.
@@ -120,6 +121,8 @@ class Design {
         keep_as_rival(group);
         groups_[group].group.by_definition = true;
     }
+    /// Offers the group in place of another form of its cause alone.
+    void keep_as_form(std::size_t group) { groups_[group].only_form = true; }
     /// Fraction of a group's squared columns outside the span of some features
     /// (design_outside.cpp).
     double outside(std::size_t group, const std::vector<Eigen::Index>& features) const;

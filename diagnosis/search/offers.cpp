@@ -14,7 +14,7 @@ std::vector<std::size_t> possible(const Design& design, const std::vector<std::s
     std::vector<std::size_t> list;
     for (std::size_t k = 0; k < design.groups().size(); ++k) {
         const auto& entry = design.groups()[k];
-        if (!entry.visible() || (takes && !takes(entry.group.kind))) continue;
+        if (!entry.visible() || entry.only_form || (takes && !takes(entry.group.kind))) continue;
         const auto is_it = [&](std::size_t m) {
             return m == k || same_cause(design.group(m), entry.group);
         };

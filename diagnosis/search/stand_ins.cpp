@@ -28,7 +28,8 @@ std::vector<Candidate> candidates(const Design& design, const Model& rest,
     for (std::size_t k = 0; k < design.groups().size(); ++k) {
         const ColumnGroup& group = design.group(k);
         if (group.kind != GroupKind::textbook || group.columns() > few ||
-            !design.groups()[k].visible() || same_cause(group, held) ||
+            !design.groups()[k].visible() || design.groups()[k].only_form ||
+            same_cause(group, held) ||
             std::any_of(rest.members.begin(), rest.members.end(),
                         [&](std::size_t m) { return same_cause(design.group(m), group); }))
             continue;
