@@ -90,10 +90,11 @@ TEST_CASE("a jump that all artefacts see is no sure drift, and a drift is no jum
             diagnosis::diagnose(setup, changed_at("second", jumping, before, after));
         INFO(part);
         const diagnosis::Cause& taken_for_it = first_of(jump);
+        CHECK(jump.verdict != diagnosis::Verdict::explained);
+        if (!taken_for_it.known) continue;  // of a size that no drift has
         CHECK(taken_for_it.effect == "thermal.drift");
         CHECK(has_jump_as_rival(taken_for_it));
         CHECK(taken_for_it.probability.value() < 0.5);
-        CHECK(jump.verdict != diagnosis::Verdict::explained);
     }
 
     const setup::Setup warming =
