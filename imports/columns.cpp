@@ -88,9 +88,16 @@ NumberColumn number_column(const TextTable& table, std::size_t index, Quantity q
                                      "' is not told: in its name ([um]), in a row of units, or "
                                      "--with unit=um",
                                  column.column);
-    if (!unit || unit->quantity != quantity)
-        table.header_line().fail("'" + name + "' is no unit for '" + column.name + "' here",
-                                 column.column);
+    if (!unit || unit->quantity != quantity) {
+        // The axis that is not told is taken for a linear one.
+        const bool turned =
+            unit && unit->quantity == Quantity::angle && quantity == Quantity::length;
+        table.header_line().fail(
+            "'" + name + "' is no unit for '" + column.name + "' here" +
+                (turned ? ": a length is expected, unless the axis is a rotary one (--with axis=C)"
+                        : ""),
+            column.column);
+    }
     const bool parts =
         quantity == Quantity::angle && (unit->factor == find_unit_of_angle("deg")->factor ||
                                         unit->factor == find_unit_of_angle("h")->factor);

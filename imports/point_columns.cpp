@@ -53,7 +53,11 @@ void take(const PointTable& source, std::size_t k, const ColumnRole& role, Point
         return;
     }
     auto& place = place_of(columns, role.role)[*d];
-    if (place) table.header_line().fail("a second column for this coordinate", column.column);
+    if (place)
+        table.header_line().fail(
+            "a second column for this coordinate: its name must say which of them is nominal, "
+            "measured or a deviation",
+            column.column);
     place = number_column(table, k, Quantity::length, unit);
 }
 

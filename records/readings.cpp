@@ -137,7 +137,9 @@ void check_row(const TableLine& line, Reading& row, const ReadingTable& table) {
                       " row are a unit vector",
                   1);
     if (row.sigma_mm && *row.sigma_mm < 0.0)
-        line.fail(row.angular ? "sigma_deg is not below zero" : "sigma_mm is not below zero", 1);
+        line.fail(
+            row.angular ? "sigma_deg must not be below zero" : "sigma_mm must not be below zero",
+            1);
     check_unit(line, row, table);
 }
 
