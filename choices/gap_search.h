@@ -46,7 +46,7 @@ struct SearchQuestion {
     const setup::Setup& setup;
     const ComparedRun& before;
     const std::vector<int>& blocks;  ///< block of each row, from 0
-    const std::set<int>& called;     ///< numbers of H, D and T in the programs
+    const ProgramStores& used;       ///< by the programs
     double alike = 0.0;  ///< not 0: the difference is smaller than the noise of a row, and so many
                          ///< rows count as one
 };
