@@ -16,9 +16,10 @@ namespace trunnion::choices {
 namespace {
 
 constexpr std::size_t most_steps = 8;
-constexpr double least_gain = 4.0;     ///< of the score: odds of 50 to 1
-constexpr double least_shrink = 0.02;  ///< of the loss, on left-out rows
-constexpr double rival_gap = 3.0;      ///< of the score: odds of 20 to 1
+constexpr double least_gain = 4.0;      ///< of the score: odds of 50 to 1
+constexpr double least_shrink = 0.02;   ///< of the loss, on left-out rows
+constexpr double rival_gap = 3.0;       ///< of the score: odds of 20 to 1
+constexpr double clearly_wrong = 36.0;  ///< loss of an axis: no noise has it, whatever the mean is
 
 /// Scores for one log.
 class Scorer {
@@ -32,13 +33,13 @@ class Scorer {
     }
     bool is_within_noise() const { return alike_ > 0.0; }
     double score(double loss, std::size_t numbers) const {
-        const double fit =
-            is_within_noise() ? loss / alike_ : n_ * std::log(std::max(1.0, loss / terms_));
+        const double fit = is_within_noise() ? loss / alike_ : n_ * misfit(loss / terms_);
         return -0.5 * fit - 0.5 * static_cast<double>(numbers) * std::log(n_ + 1.0);
     }
     /// Least decrease of the loss on left-out rows.
     double least_decrease(double loss) const {
-        return is_within_noise() ? 2.0 * least_gain * alike_ : least_shrink * (loss - terms_);
+        return is_within_noise() ? 2.0 * least_gain * alike_
+                                 : std::max(0.0, least_shrink * (loss - terms_));
     }
     double noise_loss() const { return terms_; }
     /// How far a candidate is behind the best one; not at all if it leaves as little, however many
@@ -49,6 +50,10 @@ class Scorer {
     }
 
   private:
+    /// Of a mean loss, with one slope at 1: below it, few rows that are clearly wrong hide in the
+    /// mean of many that are better than their noise.
+    static double misfit(double mean) { return mean > 1.0 ? std::log(mean) : mean - 1.0; }
+
     double terms_ = 1.0, n_ = 1.0, alike_ = 0.0;
 };
 
@@ -110,7 +115,10 @@ class Searcher {
         double odds;
     };
     bool is_searched() const {
-        return scorer_.is_within_noise() || found_.run.loss > scorer_.noise_loss();
+        if (scorer_.is_within_noise() || found_.run.loss > scorer_.noise_loss()) return true;
+        const double most = clearly_wrong * static_cast<double>(comparer_.log().axes.size());
+        return std::any_of(found_.run.losses.begin(), found_.run.losses.end(),
+                           [&](double loss) { return loss > most; });
     }
     void add(GapCandidate candidate) {
         candidate.score = scorer_.score(candidate.run.loss, candidate.numbers.size());
@@ -162,7 +170,7 @@ class Searcher {
     bool take_best() {
         GapCandidate* best = nullptr;
         for (GapCandidate& c : candidates_)
-            if (passes(c) && (best == nullptr || c.score > best->score + 1e-6)) best = &c;
+            if (passes(c) && (best == nullptr || c.score > best->score + equal_score)) best = &c;
         if (best == nullptr) return false;
         GapStep step;
         double others = std::exp(now() - best->score), options = 0.0;

@@ -51,9 +51,9 @@ struct SearchQuestion {
                          ///< rows count as one
 };
 
-/// Score: -n/2 ln(mean loss, at least 1) - k/2 ln n with n = blocks times axes. It is independent
-/// of scale, so an unexplained remainder tempers it. Within the noise: -loss/2 - k/2 ln n of the
-/// rows that count.
+/// Score: -n/2 ln(mean loss) - k/2 ln n with n = blocks times axes, linear below a mean of 1. It is
+/// independent of scale, so an unexplained remainder tempers it. Within the noise: -loss/2 - k/2
+/// ln n of the rows that count.
 GapSearch search_causes(const SearchQuestion& question,
                         const std::function<void(const char*)>& watch);
 
