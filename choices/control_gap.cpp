@@ -114,13 +114,40 @@ void tell_foreign(std::size_t blocks, ControlGap& gap) {
 }
 
 /// A log that does not tell ends of moves from samples may have ends only: as samples, what they
-/// show of short moves would not be seen.
-records::PositionLog log_as_meant(const Asked& asked) {
+/// show of short moves would not be seen. `setup`: of the control that they are compared with.
+records::PositionLog log_as_meant(const Asked& asked, const setup::Setup& setup) {
     const records::PositionLog& log = asked.question.log;
     if (log.ends) return log;
     records::PositionLog trace = as_trace(log);
     const LogOfProgram of = log_of_program(trace, asked.texts, asked.question.max_blocks);
-    return seems_trace(of, asked.comparer(of).run(asked.question.setup)) ? trace : log;
+    return seems_trace(of, asked.comparer(of).run(setup)) ? trace : log;
+}
+
+/// The answer for rows that are what `own` says.
+Answer answered(const Asked& any, const records::PositionLog& own) {
+    const GapQuestion meant{any.question.setup, own, any.question.program, any.question.max_blocks,
+                            any.question.watch};
+    const Asked asked{meant, any.programs, any.texts};
+    LogOfProgram log = log_of_program(own, any.texts, meant.max_blocks);
+    if (own.ends && !any.question.log.ends)
+        log.notes.push_back(
+            own.path +
+            ": most rows stand on ends of moves, so all are taken as ends of moves, not as samples "
+            "(a column 'motion' tells: G0 to G3 for an end, SAMPLE for a sample)");
+    const LogOfProgram plain = log;
+    settle_meaning(asked.source(meant.setup), log);
+    Answer answer = judged_by_numbers(asked, plain, log);
+    // Late numbers may show only beside the causes. They are wrong at most changes: what stays in
+    // one or two blocks is no lateness, which would hide it.
+    if (is_left(answer.gap) && answer.left >= least_late &&
+        settle_lateness(asked.source(answer.reached), log))
+        answer = judged(asked, log);
+    try_other_start(asked, log, answer);
+    try_without_numbers(asked, log, answer);
+    try_whole(asked, log, answer);
+    try_begun_within(asked, log, answer);
+    tell_foreign(log.foreign.size(), answer.gap);
+    return answer;
 }
 
 }  // namespace
@@ -134,29 +161,13 @@ ControlGap control_gap(const GapQuestion& question, interpreter::ProgramSource& 
     if (path_of(question.setup, question.program, programs, first_look).limited)
         throw PathEnded{true};
     const std::vector<interpreter::ProgramText> all = called();
-    const records::PositionLog own = log_as_meant({question, programs, all});
-    const GapQuestion meant{question.setup, own, question.program, question.max_blocks,
-                            question.watch};
-    const Asked asked{meant, programs, all};
-    LogOfProgram log = log_of_program(own, all, question.max_blocks);
-    if (own.ends && !question.log.ends)
-        log.notes.push_back(
-            own.path +
-            ": most rows stand on ends of moves, so all are taken as ends of moves, not as samples "
-            "(a column 'motion' tells: G0 to G3 for an end, SAMPLE for a sample)");
-    const LogOfProgram plain = log;
-    settle_meaning(asked.source(question.setup), log);
-    Answer answer = judged_by_numbers(asked, plain, log);
-    // Late numbers may show only beside the causes. They are wrong at most changes: what stays in
-    // one or two blocks is no lateness, which would hide it.
-    if (is_left(answer.gap) && answer.left >= least_late &&
-        settle_lateness(asked.source(answer.reached), log))
-        answer = judged(asked, log);
-    try_other_start(asked, log, answer);
-    try_without_numbers(asked, log, answer);
-    try_whole(asked, log, answer);
-    try_begun_within(asked, log, answer);
-    tell_foreign(log.foreign.size(), answer.gap);
+    const Asked asked{question, programs, all};
+    const records::PositionLog own = log_as_meant(asked, question.setup);
+    Answer answer = answered(asked, own);
+    // A store far from the other control's hides which rows are ends of moves, too.
+    if (!own.ends && answer.gap.verdict != GapVerdict::no_gap)
+        if (const records::PositionLog ends = log_as_meant(asked, answer.reached); ends.ends)
+            answer = answered(asked, ends);
     return std::move(answer.gap);
 }
 
