@@ -150,6 +150,22 @@ Answer answered(const Asked& any, const records::PositionLog& own) {
     return answer;
 }
 
+/// A store far from the other control's hides that rows are ends of moves: the causes found may
+/// show it, or these explain the log only so.
+void try_ends(const Asked& asked, Answer& answer) {
+    const records::PositionLog meant = log_as_meant(asked, answer.reached);
+    if (meant.ends) {
+        answer = answered(asked, meant);
+        return;
+    }
+    if (!is_left(answer.gap)) return;
+    const records::PositionLog ends = as_trace(asked.question.log);
+    const LogOfProgram log = log_of_program(ends, asked.texts, asked.question.max_blocks);
+    if (!may_be_trace(ends, asked.comparer(log).path(asked.question.setup))) return;
+    Answer second = answered(asked, ends);
+    if (!is_left(second.gap)) answer = std::move(second);
+}
+
 }  // namespace
 
 ControlGap control_gap(const GapQuestion& question, interpreter::ProgramSource& programs,
@@ -164,10 +180,7 @@ ControlGap control_gap(const GapQuestion& question, interpreter::ProgramSource& 
     const Asked asked{question, programs, all};
     const records::PositionLog own = log_as_meant(asked, question.setup);
     Answer answer = answered(asked, own);
-    // A store far from the other control's hides which rows are ends of moves, too.
-    if (!own.ends && answer.gap.verdict != GapVerdict::no_gap)
-        if (const records::PositionLog ends = log_as_meant(asked, answer.reached); ends.ends)
-            answer = answered(asked, ends);
+    if (!own.ends && answer.gap.verdict != GapVerdict::no_gap) try_ends(asked, answer);
     return std::move(answer.gap);
 }
 

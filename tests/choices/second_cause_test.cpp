@@ -1,4 +1,6 @@
 // What a stale store must not hide: another cause beside it, and rows that it leaves far away.
+#include <map>
+
 #include "tests/choices/sampled_log.h"
 
 namespace trunnion {
@@ -60,6 +62,29 @@ TEST_CASE(
     CHECK(gap.causes[0].name == "G54");
     CHECK(gap.causes[1].name == "5114");
     CHECK(gap.causes[1].numbers[0].to == Approx(0.3).margin(1e-3));
+}
+
+TEST_CASE(
+    "a length far from the other control's is found where no column tells that rows are ends") {
+    for (const double length : {165.0, 240.0, 350.0}) {
+        INFO(length);
+        const auto there = mill_of(
+            "work_offsets.G54 = { X = 10, Y = -20, Z = 5 }\ntools.1 = { "
+            "length_mm = " +
+            std::to_string(length) + ", diameter_mm = 6 }\n");
+        records::PositionLog log = log_of(there, cycles);
+        log.blocks = records::BlockColumn::none;
+        log.ends = false;
+        for (records::LoggedPosition& row : log.rows) row.end = false;
+        const auto gap = gap_of(mill(10.0, "1.0"), log, cycles);
+        std::map<std::string, double> found;
+        for (const choices::GapCause& cause : gap.causes)
+            for (const choices::FittedNumber& number : cause.numbers)
+                found[number.name] = number.to;
+        CHECK((gap.verdict == GapVerdict::explained || gap.verdict == GapVerdict::ambiguous));
+        CHECK((found["H1"] == Approx(length).margin(1e-3) ||
+               found["G54.Z"] == Approx(5.0 + length - 150.0).margin(1e-3)));
+    }
 }
 
 TEST_CASE("a log with rows that stay millimetres away is not explained, however few they are") {
