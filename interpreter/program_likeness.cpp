@@ -47,7 +47,8 @@ bool may_be_block(std::string_view line) {
 }
 
 void refuse_other_files(const ProgramText& program) {
-    std::string_view text = program.text;
+    constexpr char end_of_file = '\x1a';  // Ctrl-Z: what stands behind it is not read
+    std::string_view text = program.text.substr(0, program.text.find(end_of_file));
     if (text.find('\0') != std::string_view::npos)
         throw InputError("is no NC program: its bytes are no text", {program.name, 0, 0});
     std::size_t all = 0, others = 0;

@@ -21,6 +21,8 @@ TEST_CASE("a table, a setup, a letter and bytes are no NC program") {
           "Dear operator,\nplease run this\nbefore noon\n"})
         CHECK_THROWS_AS(look_at(text), InputError);
     CHECK_THROWS_AS(look_at(std::string("G0 X1\0G1", 8)), InputError);
+    CHECK_THROWS_AS(look_at("\x89PNG\r\n\x1a\n"), InputError);
+    CHECK_NOTHROW(look_at(std::string("G0 X1\nM30\n\x1a\0\0", 13)));
 }
 
 TEST_CASE("a program with lines that a control refuses is one") {
