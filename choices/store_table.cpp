@@ -55,13 +55,20 @@ void add_work_offsets(const Setup& setup, const std::vector<Axis>& axes, const P
     out.push_back(vector_store(
         "external", "external work offset", axes,
         [](Setup & s) -> auto& { return s.stores.work.external; }));
+}
+
+/// Along the linear axes: each number costs a run, and such shifts are set for a part.
+void add_left_shifts(const std::vector<Axis>& axes, const ProgramStores& used,
+                     std::vector<Store>& out) {
+    std::vector<Axis> linear = axes;
+    std::erase_if(linear, is_rotary);
     if (used.left_local)
         out.push_back(vector_store(
-            "G52", "G52 left in force before the program", axes,
+            "G52", "G52 left in force before the program", linear,
             [](Setup & s) -> auto& { return s.stores.work.local; }));
     if (used.left_preset)
         out.push_back(vector_store(
-            "G92", "G92 left in force before the program", axes,
+            "G92", "G92 left in force before the program", linear,
             [](Setup & s) -> auto& { return s.stores.work.preset; }));
 }
 
@@ -235,6 +242,7 @@ std::vector<Store> store_table(const Setup& setup, const ProgramStores& used) {
     std::vector<Store> out;
     add_variables(used, out);
     add_work_offsets(setup, axes, used, out);
+    add_left_shifts(axes, used, out);
     add_tools(setup, used.offsets, out);
     const auto pivot = is_hurco(setup) ? table_pivot(setup, axes) : std::nullopt;
     if (pivot)
