@@ -75,7 +75,7 @@ AgreeingRange agreeing_range(const Comparer& comparer, const FittedControl& cont
 }
 
 void settle_in_ranges(const SearchQuestion& question, GapSearch& found) {
-    const std::vector<Store> table = store_table(found.setup, question.called);
+    const std::vector<Store> table = store_table(found.setup, question.used);
     for (GapStep& step : found.steps) {
         bool is_wide = false;
         for (FittedNumber& fitted : step.chosen.numbers) {
@@ -93,9 +93,8 @@ void settle_in_ranges(const SearchQuestion& question, GapSearch& found) {
             found.run = question.comparer.run(found.setup);
         }
         if (!is_wide) continue;
-        step.chosen.take = [numbers = step.chosen.numbers,
-                            called = question.called](setup::Setup& s) {
-            const std::vector<Store> stores = store_table(s, called);
+        step.chosen.take = [numbers = step.chosen.numbers, used = question.used](setup::Setup& s) {
+            const std::vector<Store> stores = store_table(s, used);
             for (const FittedNumber& fitted : numbers)
                 if (const StoredNumber* number = number_of(stores, fitted.name))
                     number->in(s) = fitted.to;

@@ -1,166 +1,23 @@
 #include "choices/control_gap.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <optional>
-#include <set>
+#include <utility>
 
-#include "choices/agreeing_range.h"
-#include "choices/block_texts.h"
-#include "choices/edit_rivals.h"
-#include "choices/far_blocks.h"
-#include "choices/folds.h"
-#include "choices/gap_causes.h"
 #include "choices/gap_notes.h"
-#include "choices/gap_search.h"
-#include "choices/gap_teller.h"
+#include "choices/judged_log.h"
 #include "choices/log_meaning.h"
-#include "choices/offset_words.h"
-#include "choices/row_fit.h"
-#include "choices/small_shift.h"
 #include "choices/trace_of_ends.h"
-#include "controller/alarms.h"
-#include "estimation/distributions.h"
 
 namespace trunnion::choices {
 
 namespace {
 
-constexpr double gap_sigmas = 6.0;  ///< of a row: a gap begins there
-constexpr double explained_from = 0.8;
-constexpr double least_left = 0.005;  ///< of the gap: minimum for a block listed as remaining
-constexpr double claimed = 0.5;       ///< least probability of a claim
-constexpr double chance =
-    1e-6;  ///< p of a small excess over the noise that is searched all the same
-constexpr double quite_sure = 0.8;     ///< probability of a cause of such an excess
-constexpr double all_rows = 0.95;      ///< part of the rows that an explanation reaches
+constexpr double claimed = 0.5;        ///< least probability of a claim
 constexpr std::size_t least_late = 3;  ///< blocks with wrong rows, where numbers are late
-constexpr double surely_more = 1e-9;   ///< p of a mean that no noise has
 constexpr double contradicts = 0.9;    ///< of the loss: most that stays without the numbers
 constexpr double much_less = 0.5;      ///< of the loss that causes leave, by another reading
 constexpr double other_start = 1.2;    ///< of the loss: most with a start that may be right
-
-/// `whole`: the causes bring (almost) all rows with a gap down to noise, and spoil none.
-GapVerdict verdict_of(const ControlGap& gap, bool whole) {
-    const bool none = std::none_of(gap.causes.begin(), gap.causes.end(), is_claimed);
-    if (none) return GapVerdict::unexplained;
-    if (gap.explained < explained_from || !whole) return GapVerdict::partly_explained;
-    const bool rivals = std::any_of(gap.causes.begin(), gap.causes.end(),
-                                    [](const GapCause& c) { return !c.rivals.empty(); });
-    return rivals ? GapVerdict::ambiguous : GapVerdict::explained;
-}
-
-/// Adds a structured gap that no row of the tables explains, with its share and its places; it is
-/// as sure as there are blocks with it.
-void add_unknown(ControlGap& gap, std::size_t blocks, GapCause cause) {
-    cause.name = "unknown";
-    cause.known = false;
-    cause.blocks = blocks;
-    cause.probability = 1.0;
-    cap_probability(cause, 1.0);
-    gap.causes.push_back(cause);
-}
-
-void tell_base(const LogOfProgram& log, const ComparedRun& base, const Teller& teller,
-               ControlGap& gap) {
-    gap.noise = log.noise;
-    gap.rows = log.view.rows.size();
-    gap.rms_um = teller.mean_um(base.losses);
-    gap.noise_um = teller.noise_um();
-    gap.excess_um = std::sqrt(std::max(0.0, gap.rms_um * gap.rms_um - gap.noise_um * gap.noise_um));
-    gap.p_value = estimation::chi_squared_tail(base.loss, teller.noise_loss());
-    const double limit = gap_sigmas * gap_sigmas;
-    gap.first = teller.first(base, [&](std::size_t row) { return base.losses[row] > limit; });
-    gap.worst = teller.worst(base, [](std::size_t) { return true; });
-    gap.where = teller.where(base, base.loss - teller.noise_loss());
-    if (base.path.alarm)
-        gap.stopped =
-            fmt::format("{} at line {}",
-                        controller::alarm_title(base.path.alarm->number, base.path.alarm->text),
-                        base.path.alarm->where.line);
-    gap.after_rms_um = gap.rms_um;
-    tell_rest(log.view, base, gap.notes);
-}
-
-/// No cause is claimed: all of the gap is unknown, whatever a doubtful one would remove.
-GapCause nothing_explains(const ControlGap& gap) {
-    GapCause out;
-    out.what = "no choice and no store in the tables explains the gap";
-    out.share = 1.0;
-    out.first = gap.first;
-    out.worst = gap.worst;
-    return out;
-}
-
-/// Beside the causes that are claimed.
-GapCause what_stays(const ControlGap& gap, const ComparedRun& run, const Judged& by) {
-    GapCause out;
-    out.what = "no choice and no store in the tables explains what stays";
-    out.share = 1.0 - gap.explained;
-    const auto is_far = [&](std::size_t row) { return run.losses[row] > by.row_limit; };
-    out.first = by.teller.first(run, is_far);
-    out.worst = by.teller.worst(run, [](std::size_t) { return true; });
-    return out;
-}
-
-void tell_causes(const GapQuestion& question, const GapSearch& found, const ComparedRun& base,
-                 const Judged& by, ControlGap& gap) {
-    for (std::size_t k = 0; k < found.steps.size(); ++k)
-        gap.causes.push_back(cause_of(question, found, k, by));
-    const double excess = by.excess;
-    gap.explained =
-        excess > 0.0 ? std::clamp((base.loss - sum_of(found.left_out)) / excess, 0.0, 1.0) : 0.0;
-    if (by.row_limit == infinite_loss)
-        for (GapCause& cause : gap.causes) cap_probability(cause, gap.explained);
-    cap_by_needed(question, found, by, gap.causes);
-    share_with_edits(question, found, by, gap.causes);
-    for (std::size_t k = 0; k < found.steps.size(); ++k)
-        if (is_claimed(gap.causes[k]) && !may_be_edit(gap.causes[k]))
-            found.steps[k].chosen.take(gap.setup);
-    std::stable_sort(gap.causes.begin(), gap.causes.end(),
-                     [](const GapCause& a, const GapCause& b) { return a.share > b.share; });
-    const double part = reached(base.losses, found.run.losses, by.row_limit);
-    const bool whole =
-        part >= all_rows && !stays_wrong(base.losses, found.run.losses, by.row_limit);
-    gap.verdict = verdict_of(gap, whole);
-    gap.after = by.teller.shrink(base.losses, found.left_out);
-    gap.after_rms_um = by.teller.mean_um(found.run.losses);
-    for (const GapBlock& block : by.teller.where(found.run, excess))
-        if (block.share > least_left || (!whole && block.p_value < surely_more))
-            gap.left.push_back(block);
-    if (gap.verdict == GapVerdict::unexplained)
-        add_unknown(gap, gap.blocks, nothing_explains(gap));
-    else if (gap.verdict == GapVerdict::partly_explained && !whole)
-        add_unknown(gap, gap.left.size(), what_stays(gap, found.run, by));
-    gap.unseen = found.unseen;
-}
-
-/// Something of the gap stays.
-bool is_left(const ControlGap& gap) {
-    return gap.verdict == GapVerdict::unexplained || gap.verdict == GapVerdict::partly_explained;
-}
-
-/// What noise alone might be must be explained wholly and surely.
-bool is_convincing(const ControlGap& gap) {
-    const bool whole = gap.verdict == GapVerdict::explained || gap.verdict == GapVerdict::ambiguous;
-    return whole && std::all_of(gap.causes.begin(), gap.causes.end(), [](const GapCause& c) {
-               return c.probability >= quite_sure || !c.rivals.empty();
-           });
-}
-
-void take_back(const GapQuestion& question, ControlGap& gap) {
-    gap.verdict = GapVerdict::no_gap;
-    gap.causes.clear();
-    gap.left.clear();
-    gap.unseen.clear();
-    gap.setup = question.setup;
-    gap.explained = 0.0;
-    gap.after = {};
-    gap.after_rms_um = gap.rms_um;
-}
 
 }  // namespace
 
@@ -175,95 +32,6 @@ const char* to_string(GapVerdict verdict) {
 }
 
 namespace {
-
-struct Asked {
-    const GapQuestion& question;
-    interpreter::ProgramSource& programs;
-    const std::vector<interpreter::ProgramText>& texts;
-
-    Comparer comparer(const LogOfProgram& log) const {
-        return {log.view, question.program, programs, log.path};
-    }
-    LogSource source(const setup::Setup& setup) const {
-        return {question.log, texts,
-                [this, &setup](const LogOfProgram& log) { return comparer(log).run(setup); }};
-    }
-};
-
-struct Answer {
-    ControlGap gap;
-    setup::Setup reached;  ///< with every cause of the search, claimed or not
-    std::size_t left = 0;  ///< blocks that stay far away beside the causes
-};
-
-/// An edit of the program, or another meaning of the columns, with which the log agrees.
-void tell_other_readings(const GapQuestion& question, const GapSearch& found,
-                         const ComparedRun& base, const Judged& by, ControlGap& gap) {
-    if (const std::string edit = agreeing_edit(question, found, base, by); !edit.empty())
-        gap.notes.push_back("the log agrees if " + edit +
-                            ": the program that ran may have been edited there");
-    if (const std::string meaning = agreeing_columns(by.comparer, question.setup, base.loss);
-        !meaning.empty())
-        gap.notes.push_back(fmt::format("the log agrees if {}", meaning));
-}
-
-Answer judged(const Asked& asked, LogOfProgram log) {
-    const GapQuestion& question = asked.question;
-    // Not Answer{{}, setup}: without memory for the copy, GCC 12 destroys a gap that it never made.
-    Answer out;
-    out.reached = question.setup;
-    ControlGap& gap = out.gap;
-    gap.setup = question.setup;
-    gap.notes = log.notes;
-    tell_sampling(log.view, gap.notes);
-    const ComparedRun first = asked.comparer(log).run(question.setup);
-    const std::vector<int> blocks = blocks_of(log.view, first);
-    // A motion that the log samples coarsely looks like noise, and would hide a gap.
-    if (const auto scatter = scatter_about(log.view, first, blocks);
-        log.noise == LogNoise::repeats && scatter && *scatter < log.sigma)
-        set_sigma(log, *scatter);
-    const Comparer comparer = asked.comparer(log);
-    const ComparedRun base = comparer.run(question.setup);
-    gap.blocks = std::set<int>(blocks.begin(), blocks.end()).size();
-    const BlockTexts texts(question.program, asked.texts);
-    const Teller teller(log, texts, blocks, directions_of(log.view, base));
-    tell_base(log, base, teller, gap);
-    const bool quiet = is_quiet(log, base);
-    const double alike = quiet ? correlation_of(log.view, base, blocks) : 0.0;
-    if (quiet)
-        gap.p_value = is_rounding(log.view, base)
-                          ? 1.0
-                          : std::min(gap.p_value, p_of_shift(log.view, base, blocks, alike));
-    if (quiet && gap.p_value > chance) {
-        gap.unseen = tell_ranges(comparer, {question.setup, base}, gap.notes);
-        return out;
-    }
-    const std::set<int> called = offset_words(asked.texts);
-    const SearchQuestion search{comparer, question.setup, base, blocks, called, alike};
-    GapSearch found = search_causes(search, question.watch);
-    const auto limit = [&] {
-        return quiet ? infinite_loss
-                     : row_limit_of(log, base, found.run, blocks, 1e-3 * gap.rms_um);
-    };
-    if (!quiet) found = beside_far_blocks(search, std::move(found), limit(), question.watch);
-    settle_in_ranges(search, found);
-    // Within the noise no row shows whether it is reached: their means do.
-    const Judged by{comparer, teller,
-                    blocks,   base.loss - (quiet ? found.run.loss : teller.noise_loss()),
-                    limit(),  beside_remainder(log, base, found.run, blocks, limit())};
-    tell_causes(question, found, base, by, gap);
-    if (quiet && (!is_convincing(gap) || p_of_shift(log.view, found.run, blocks, alike) < chance))
-        take_back(question, gap);
-    for (std::string& name : tell_ranges(comparer, {found.setup, found.run}, gap.notes))
-        gap.unseen.push_back(std::move(name));
-    out.reached = found.setup;
-    std::set<int> left;
-    for (std::size_t row = 0; row < blocks.size(); ++row)
-        if (found.run.losses[row] > by.row_limit) left.insert(blocks[row]);
-    out.left = left.size();
-    if (is_left(gap)) tell_other_readings(question, found, base, by, gap);
-    return out;
-}
 
 /// With the control at its machine zero at first, if this explains the log and its first row as the
 /// start does not.
@@ -317,6 +85,24 @@ void try_begun_within(const Asked& asked, const LogOfProgram& log, Answer& answe
     if (!is_left(second.gap) || here * here < much_less * own * own) answer = std::move(second);
 }
 
+/// A choice of the control may make the same way in other blocks. So numbers of blocks are read
+/// otherwise only if no cause explains the log with these as they stand. `plain`: as it was read.
+Answer judged_by_numbers(const Asked& asked, const LogOfProgram& plain, LogOfProgram& log) {
+    if (log.lines_from_0) {
+        Answer answer = judged(asked, plain);
+        if (!is_left(answer.gap)) {
+            log = plain;
+            return answer;
+        }
+    }
+    Answer answer = judged(asked, log);
+    if (!is_left(answer.gap)) return answer;
+    auto ordered = agreeing_in_order(asked.source(asked.question.setup), log);
+    if (!ordered) return answer;
+    log = std::move(*ordered);
+    return judged(asked, log);
+}
+
 /// Rows that are set aside are no part of the answer, and no agreement.
 void tell_foreign(std::size_t blocks, ControlGap& gap) {
     if (blocks == 0 || is_left(gap)) return;
@@ -327,18 +113,57 @@ void tell_foreign(std::size_t blocks, ControlGap& gap) {
     add_unknown(gap, blocks, std::move(cause));
 }
 
-}  // namespace
-
-namespace {
-
 /// A log that does not tell ends of moves from samples may have ends only: as samples, what they
-/// show of short moves would not be seen.
-records::PositionLog log_as_meant(const Asked& asked) {
+/// show of short moves would not be seen. `setup`: of the control that they are compared with.
+records::PositionLog log_as_meant(const Asked& asked, const setup::Setup& setup) {
     const records::PositionLog& log = asked.question.log;
     if (log.ends) return log;
     records::PositionLog trace = as_trace(log);
     const LogOfProgram of = log_of_program(trace, asked.texts, asked.question.max_blocks);
-    return seems_trace(of, asked.comparer(of).run(asked.question.setup)) ? trace : log;
+    return seems_trace(of, asked.comparer(of).run(setup)) ? trace : log;
+}
+
+/// The answer for rows that are what `own` says.
+Answer answered(const Asked& any, const records::PositionLog& own) {
+    const GapQuestion meant{any.question.setup, own, any.question.program, any.question.max_blocks,
+                            any.question.watch};
+    const Asked asked{meant, any.programs, any.texts};
+    LogOfProgram log = log_of_program(own, any.texts, meant.max_blocks);
+    if (own.ends && !any.question.log.ends)
+        log.notes.push_back(
+            own.path +
+            ": most rows stand on ends of moves, so all are taken as ends of moves, not as samples "
+            "(a column 'motion' tells: G0 to G3 for an end, SAMPLE for a sample)");
+    const LogOfProgram plain = log;
+    settle_meaning(asked.source(meant.setup), log);
+    Answer answer = judged_by_numbers(asked, plain, log);
+    // Late numbers may show only beside the causes. They are wrong at most changes: what stays in
+    // one or two blocks is no lateness, which would hide it.
+    if (is_left(answer.gap) && answer.left >= least_late &&
+        settle_lateness(asked.source(answer.reached), log))
+        answer = judged(asked, log);
+    try_other_start(asked, log, answer);
+    try_without_numbers(asked, log, answer);
+    try_whole(asked, log, answer);
+    try_begun_within(asked, log, answer);
+    tell_foreign(log.foreign.size(), answer.gap);
+    return answer;
+}
+
+/// A store far from the other control's hides that rows are ends of moves: the causes found may
+/// show it, or these explain the log only so.
+void try_ends(const Asked& asked, Answer& answer) {
+    const records::PositionLog meant = log_as_meant(asked, answer.reached);
+    if (meant.ends) {
+        answer = answered(asked, meant);
+        return;
+    }
+    if (!is_left(answer.gap)) return;
+    const records::PositionLog ends = as_trace(asked.question.log);
+    const LogOfProgram log = log_of_program(ends, asked.texts, asked.question.max_blocks);
+    if (!may_be_trace(ends, asked.comparer(log).path(asked.question.setup))) return;
+    Answer second = answered(asked, ends);
+    if (!is_left(second.gap)) answer = std::move(second);
 }
 
 }  // namespace
@@ -352,28 +177,10 @@ ControlGap control_gap(const GapQuestion& question, interpreter::ProgramSource& 
     if (path_of(question.setup, question.program, programs, first_look).limited)
         throw PathEnded{true};
     const std::vector<interpreter::ProgramText> all = called();
-    const records::PositionLog own = log_as_meant({question, programs, all});
-    const GapQuestion meant{question.setup, own, question.program, question.max_blocks,
-                            question.watch};
-    const Asked asked{meant, programs, all};
-    LogOfProgram log = log_of_program(own, all, question.max_blocks);
-    if (own.ends && !question.log.ends)
-        log.notes.push_back(
-            own.path +
-            ": most rows stand on ends of moves, so all are taken as ends of moves, not as samples "
-            "(a column 'motion' tells: G0 to G3 for an end, SAMPLE for a sample)");
-    settle_meaning(asked.source(question.setup), log);
-    Answer answer = judged(asked, log);
-    // Late numbers may show only beside the causes. They are wrong at most changes: what stays in
-    // one or two blocks is no lateness, which would hide it.
-    if (is_left(answer.gap) && answer.left >= least_late &&
-        settle_lateness(asked.source(answer.reached), log))
-        answer = judged(asked, log);
-    try_other_start(asked, log, answer);
-    try_without_numbers(asked, log, answer);
-    try_whole(asked, log, answer);
-    try_begun_within(asked, log, answer);
-    tell_foreign(log.foreign.size(), answer.gap);
+    const Asked asked{question, programs, all};
+    const records::PositionLog own = log_as_meant(asked, question.setup);
+    Answer answer = answered(asked, own);
+    if (!own.ends && answer.gap.verdict != GapVerdict::no_gap) try_ends(asked, answer);
     return std::move(answer.gap);
 }
 

@@ -40,10 +40,10 @@ struct GapCause {
     std::string name;                   ///< "tcp_frame=rotary_zero", "G54"
     std::string what;                   ///< one sentence
     std::vector<FittedNumber> numbers;  ///< of a store; empty for an option
-    double probability = 0.0;
-    std::vector<std::string> rivals;  ///< alternatives that explain the log equally well
-    double share = 0.0;               ///< part of the gap that it removes, beside the other causes
-    std::size_t blocks = 0;           ///< number of blocks that it changes
+    double probability = 0.0;           ///< with those of its rivals less than 1: it may be none
+    std::vector<std::string> rivals;    ///< alternatives that explain the log equally well
+    double share = 0.0;      ///< part of the gap that it removes, beside the other causes
+    std::size_t blocks = 0;  ///< number of blocks that it changes
     GapPlace first, worst;
     GapShrink heldout;
     bool known = true;  ///< false: what no choice and no store explains

@@ -56,7 +56,7 @@ GapSearch beside_far_blocks(const SearchQuestion& question, GapSearch found, dou
     const Comparer comparer = question.comparer.on(view);
     const ComparedRun before = comparer.run(question.setup);
     GapSearch other = search_causes(
-        {comparer, question.setup, before, blocks, question.called, question.alike}, watch);
+        {comparer, question.setup, before, blocks, question.used, question.alike}, watch);
     other.run = question.comparer.run(other.setup);
     double now = 0.0, then = 0.0;
     for (std::size_t row = 0; row < blocks.size(); ++row) {

@@ -108,4 +108,15 @@ std::vector<FarStart> FarStarts::of(const StoredNumber& number, bool has_derivat
     return out;
 }
 
+std::vector<FarStart> FarStarts::of_vacant(const Numbers& numbers) const {
+    Numbers vacant;
+    for (const StoredNumber* number : numbers)
+        if (is_vacant(now_.setup, *number)) vacant.push_back(number);
+    if (vacant.size() < 2) return {};
+    FarStart out{vacant.front(), {now_.setup, {}}};
+    for (const StoredNumber* number : vacant) number->in(out.control.setup) = beside;
+    out.control.run = comparer_.run(out.control.setup);
+    return {std::move(out)};
+}
+
 }  // namespace trunnion::choices

@@ -25,6 +25,8 @@ class FarStarts {
 
     /// `has_derivative`: at its present value.
     std::vector<FarStart> of(const StoredNumber& number, bool has_derivative) const;
+    /// Variables that are all vacant, as if all were set: one of them alone may not do.
+    std::vector<FarStart> of_vacant(const Numbers& numbers) const;
 
   private:
     std::vector<double> lacks(const FittedControl& here, const StoredNumber& number) const;

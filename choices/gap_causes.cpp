@@ -86,10 +86,19 @@ bool is_one_event(const Judged& by, const ComparedRun& rest, const ComparedRun& 
 
 }  // namespace
 
-void cap_probability(GapCause& cause, double explained) {
+namespace {
+
+/// Most that so many blocks can prove of a cause and its rivals together.
+double most_by_blocks(const GapCause& cause) {
     const double blocks = static_cast<double>(cause.blocks);
+    return (blocks + 1.0) / (blocks + 2.0);
+}
+
+}  // namespace
+
+void cap_probability(GapCause& cause, double explained) {
     cause.probability =
-        std::min({cause.probability, (blocks + 1.0) / (blocks + 2.0), std::max(0.0, explained)});
+        std::min({cause.probability, most_by_blocks(cause), std::max(0.0, explained)});
 }
 
 GapCause cause_of(const GapQuestion& question, const GapSearch& found, std::size_t k,
@@ -111,6 +120,8 @@ GapCause cause_of(const GapQuestion& question, const GapSearch& found, std::size
         return is_changed(rest.losses[row], found.run.losses[row]);
     };
     out.blocks = changed_blocks(rest.losses, found.run.losses, by.blocks).size();
+    // The rest is that of a cause which nobody named: rivals share what is left of it.
+    out.probability *= most_by_blocks(out);
     out.first = by.teller.first(rest, changed);
     out.worst = by.teller.worst(rest, changed);
     out.heldout = by.teller.shrink(rest.losses, found.left_out);

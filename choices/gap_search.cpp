@@ -16,9 +16,10 @@ namespace trunnion::choices {
 namespace {
 
 constexpr std::size_t most_steps = 8;
-constexpr double least_gain = 4.0;     ///< of the score: odds of 50 to 1
-constexpr double least_shrink = 0.02;  ///< of the loss, on left-out rows
-constexpr double rival_gap = 3.0;      ///< of the score: odds of 20 to 1
+constexpr double least_gain = 4.0;      ///< of the score: odds of 50 to 1
+constexpr double least_shrink = 0.02;   ///< of the loss, on left-out rows
+constexpr double rival_gap = 3.0;       ///< of the score: odds of 20 to 1
+constexpr double clearly_wrong = 36.0;  ///< loss of an axis: no noise has it, whatever the mean is
 
 /// Scores for one log.
 class Scorer {
@@ -32,13 +33,13 @@ class Scorer {
     }
     bool is_within_noise() const { return alike_ > 0.0; }
     double score(double loss, std::size_t numbers) const {
-        const double fit =
-            is_within_noise() ? loss / alike_ : n_ * std::log(std::max(1.0, loss / terms_));
+        const double fit = is_within_noise() ? loss / alike_ : n_ * misfit(loss / terms_);
         return -0.5 * fit - 0.5 * static_cast<double>(numbers) * std::log(n_ + 1.0);
     }
     /// Least decrease of the loss on left-out rows.
     double least_decrease(double loss) const {
-        return is_within_noise() ? 2.0 * least_gain * alike_ : least_shrink * (loss - terms_);
+        return is_within_noise() ? 2.0 * least_gain * alike_
+                                 : std::max(0.0, least_shrink * (loss - terms_));
     }
     double noise_loss() const { return terms_; }
     /// How far a candidate is behind the best one; not at all if it leaves as little, however many
@@ -49,6 +50,10 @@ class Scorer {
     }
 
   private:
+    /// Of a mean loss, with one slope at 1: below it, few rows that are clearly wrong hide in the
+    /// mean of many that are better than their noise.
+    static double misfit(double mean) { return mean > 1.0 ? std::log(mean) : mean - 1.0; }
+
     double terms_ = 1.0, n_ = 1.0, alike_ = 0.0;
 };
 
@@ -80,7 +85,7 @@ class Searcher {
     explicit Searcher(const SearchQuestion& question)
         : comparer_(question.comparer),
           blocks_(question.blocks),
-          called_(question.called),
+          used_(question.used),
           scorer_(comparer_.log(), blocks_, question.alike),
           options_(question.setup) {
         found_.setup = question.setup;
@@ -103,8 +108,17 @@ class Searcher {
     }
 
   private:
+    /// A store that did as much in place of another one.
+    struct Instead {
+        std::string name;
+        std::vector<FittedNumber> numbers;
+        double odds;
+    };
     bool is_searched() const {
-        return scorer_.is_within_noise() || found_.run.loss > scorer_.noise_loss();
+        if (scorer_.is_within_noise() || found_.run.loss > scorer_.noise_loss()) return true;
+        const double most = clearly_wrong * static_cast<double>(comparer_.log().axes.size());
+        return std::any_of(found_.run.losses.begin(), found_.run.losses.end(),
+                           [&](double loss) { return loss > most; });
     }
     void add(GapCandidate candidate) {
         candidate.score = scorer_.score(candidate.run.loss, candidate.numbers.size());
@@ -136,7 +150,7 @@ class Searcher {
         }
     }
     void add_stores() {
-        for (const Store& store : store_table(found_.setup, called_)) {
+        for (const Store& store : store_table(found_.setup, used_)) {
             StoreFit fit = fit_store(comparer_, found_.setup, found_.run, store, blocks_);
             if (!fit.seen) unseen_.push_back(store.name);
             if (fit.numbers.empty()) continue;
@@ -156,7 +170,7 @@ class Searcher {
     bool take_best() {
         GapCandidate* best = nullptr;
         for (GapCandidate& c : candidates_)
-            if (passes(c) && (best == nullptr || c.score > best->score + 1e-6)) best = &c;
+            if (passes(c) && (best == nullptr || c.score > best->score + equal_score)) best = &c;
         if (best == nullptr) return false;
         GapStep step;
         double others = std::exp(now() - best->score), options = 0.0;
@@ -166,7 +180,11 @@ class Searcher {
             others += odds;
             const bool rival = behind < rival_gap;
             if (rival) step.rivals.push_back(c.name);
-            if (c.store) continue;
+            if (c.store) {
+                if (rival && found_.steps.empty())
+                    stores_instead_[best->name].push_back({c.name, c.numbers, odds});
+                continue;
+            }
             options += odds;
             if (rival) options_instead_[best->name].push_back(c.name);
         }
@@ -200,14 +218,30 @@ class Searcher {
         const SetScore score = [this](double loss, std::size_t numbers) {
             return scorer_.score(loss, numbers);
         };
-        JointStores joint = explained_together(
-            {comparer_, options_, blocks_, called_, score, least_gain, rival_gap},
-            {found_.setup, found_.run});
+        JointStores joint =
+            explained_together({comparer_, options_, blocks_, used_, score, least_gain, rival_gap},
+                               {found_.setup, found_.run});
         std::erase_if(found_.steps, is_store);
         found_.setup = std::move(joint.control.setup);
         found_.run = std::move(joint.control.run);
         found_.left_out = std::move(joint.left_out);
+        if (found_.steps.empty() && joint.causes.size() == 1)
+            add_unseen_rivals(joint.weighed, joint.causes[0]);
         for (StoreCause& cause : joint.causes) found_.steps.push_back(step_of(std::move(cause)));
+    }
+    /// A store that this one overwrites (G10 L2 P0 X#501) has no derivative beside it, and did as
+    /// much in its place.
+    void add_unseen_rivals(const std::set<std::string>& weighed, StoreCause& cause) const {
+        const auto instead = stores_instead_.find(cause.name);
+        if (instead == stores_instead_.end()) return;
+        for (const Instead& store : instead->second) {
+            const bool all = std::all_of(
+                store.numbers.begin(), store.numbers.end(),
+                [&](const FittedNumber& number) { return weighed.contains(number.name); });
+            if (all) continue;
+            cause.rivals.push_back(store.name);
+            cause.others += store.odds;
+        }
     }
     GapStep step_of(StoreCause cause) {
         GapStep step;
@@ -216,8 +250,8 @@ class Searcher {
         const auto& options = options_instead_[cause.name];
         step.rivals.insert(step.rivals.end(), options.begin(), options.end());
         const auto take = [name = cause.name, numbers = cause.numbers,
-                           called = called_](setup::Setup& s) {
-            for (const Store& store : store_table(s, called))
+                           used = used_](setup::Setup& s) {
+            for (const Store& store : store_table(s, used))
                 if (store.name == name) enter(store, numbers, s);
         };
         step.chosen = {std::move(cause.name),
@@ -239,12 +273,14 @@ class Searcher {
 
     const Comparer& comparer_;
     const std::vector<int>& blocks_;
-    const std::set<int>& called_;
+    const ProgramStores& used_;
     Scorer scorer_;
     setup::Setup options_;  ///< with the options found, and the stores of the start
     GapSearch found_;
     std::map<std::string, double> options_odds_;  ///< of options instead of a store
     std::map<std::string, std::vector<std::string>> options_instead_;
+    /// Of the first one.
+    std::map<std::string, std::vector<Instead>> stores_instead_;
     std::vector<GapCandidate> candidates_;
     std::vector<std::string> unseen_;
 };

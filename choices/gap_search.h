@@ -46,14 +46,14 @@ struct SearchQuestion {
     const setup::Setup& setup;
     const ComparedRun& before;
     const std::vector<int>& blocks;  ///< block of each row, from 0
-    const std::set<int>& called;     ///< numbers of H, D and T in the programs
+    const ProgramStores& used;       ///< by the programs
     double alike = 0.0;  ///< not 0: the difference is smaller than the noise of a row, and so many
                          ///< rows count as one
 };
 
-/// Score: -n/2 ln(mean loss, at least 1) - k/2 ln n with n = blocks times axes. It is independent
-/// of scale, so an unexplained remainder tempers it. Within the noise: -loss/2 - k/2 ln n of the
-/// rows that count.
+/// Score: -n/2 ln(mean loss) - k/2 ln n with n = blocks times axes, linear below a mean of 1. It is
+/// independent of scale, so an unexplained remainder tempers it. Within the noise: -loss/2 - k/2
+/// ln n of the rows that count.
 GapSearch search_causes(const SearchQuestion& question,
                         const std::function<void(const char*)>& watch);
 

@@ -39,7 +39,7 @@ class Joint {
           score_(question.score),
           least_odds_(question.least_odds),
           rival_gap_(question.rival_gap),
-          table_(store_table(start_, question.called)),
+          table_(store_table(start_, question.used)),
           before_(comparer_.run(start_)) {}
 
     JointStores explain() {
@@ -133,6 +133,10 @@ class Joint {
             weigh(chosen, store, cause);
             out.causes.push_back(std::move(cause));
         }
+        for (const Seen& seen : seen_) out.weighed.insert(seen.number->name);
+        for (const std::size_t store : other_moves_)
+            for (const StoredNumber& number : table_[store].numbers)
+                out.weighed.insert(number.name);
         out.left_out = left_out(set);
         out.control = std::move(now_);
         return out;

@@ -21,7 +21,8 @@ struct StoreCause {
 struct JointStores {
     FittedControl control;
     std::vector<StoreCause> causes;
-    std::vector<double> left_out;  ///< losses of the rows, with their fold left out of the fit
+    std::vector<double> left_out;   ///< losses of the rows, with their fold left out of the fit
+    std::set<std::string> weighed;  ///< numbers that were compared; the others have no influence
 };
 
 /// Of a score: sets that differ by less leave as much of the gap. The one with fewer numbers is no
@@ -35,7 +36,7 @@ struct StoreQuestion {
     const Comparer& comparer;
     const setup::Setup& start;  ///< the control with its options and its own stores
     const std::vector<int>& blocks;
-    const std::set<int>& called;  ///< of store_table
+    const ProgramStores& used;  ///< of store_table
     SetScore score;
     double least_odds;  ///< of the score: what a further store costs
     double rival_gap;   ///< of the score: a set that is closer is a rival

@@ -55,14 +55,14 @@ class Meanings {
     void settle() {
         settle_part();
         settle_lateness();
-        settle_numbers();
     }
-    /// Positions that agree in their order have no gap, whatever their numbers are. What stays in
-    /// one or two blocks may be another end of these.
-    void settle_numbers() {
-        if (is_settled() || now_.log.view.keys == 0 || wrong_blocks() < least_wrong) return;
+    /// What stays in one or two blocks may be another end of these.
+    std::optional<LogOfProgram> in_order() const {
+        if (is_settled() || now_.log.view.keys == 0 || wrong_blocks() < least_wrong)
+            return std::nullopt;
         Meaning other = meaning(without_numbers(now_.log));
-        if (is_quiet(other.log, other.run)) now_ = std::move(other);
+        if (!is_quiet(other.log, other.run)) return std::nullopt;
+        return std::move(other.log);
     }
     /// False: the log stays.
     bool settle_lateness() {
@@ -152,6 +152,7 @@ class Meanings {
             if (row.block > 0) ++row.block;
         try {
             LogOfProgram out = log_of_program(log, source_.texts);
+            out.lines_from_0 = true;
             out.notes.push_back(log.path + ": the lines agree if the first one is 0");
             return out;
         } catch (const InputError&) {  // a line beyond the last
@@ -221,6 +222,10 @@ void settle_meaning(const LogSource& source, LogOfProgram& log) {
     Meanings meanings(source, log);
     meanings.settle();
     log = meanings.log();
+}
+
+std::optional<LogOfProgram> agreeing_in_order(const LogSource& source, LogOfProgram log) {
+    return Meanings(source, log).in_order();
 }
 
 bool settle_lateness(const LogSource& source, LogOfProgram& log) {

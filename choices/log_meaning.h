@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "choices/compared_run.h"
@@ -36,6 +37,11 @@ LogOfProgram without_numbers(LogOfProgram log);
 /// Replaces the log by another reading of it only where that removes (almost) all of a gap, or, for
 /// late numbers, where the corners of the log itself show it; a note tells.
 void settle_meaning(const LogSource& source, LogOfProgram& log);
+
+/// The log without its numbers of blocks, if three blocks or more are wrong by these and all
+/// positions agree in their order. That is no gap, unless a choice of the control explains the
+/// numbers, too: it moves the same way in other blocks (5006#6).
+std::optional<LogOfProgram> agreeing_in_order(const LogSource& source, LogOfProgram log);
 
 /// The same for late numbers alone; false: the log stays as it is.
 bool settle_lateness(const LogSource& source, LogOfProgram& log);

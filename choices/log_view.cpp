@@ -320,6 +320,9 @@ LogOfProgram log_of_program(const records::PositionLog& log,
     set_noise(log, out);
     out.notes = mark_missing_rows(out.view);
     if (std::string note = lost_note(log); !note.empty()) out.notes.push_back(std::move(note));
+    if (!log.unknown.empty())
+        out.notes.push_back(fmt::format("{}: columns that are not read: {}", log.path,
+                                        fmt::join(log.unknown, ", ")));
     if (!out.foreign.empty()) out.notes.push_back(foreign_note(log, out, keys->main()));
     if (!out.view.marked && has_rows_at_ends(out.view)) {
         out.view.marked = true;

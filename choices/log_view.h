@@ -16,9 +16,10 @@ const char* to_string(LogNoise noise);
 
 struct LogOfProgram {
     LogView view;
-    bool late = false;       ///< the numbers of blocks were late or early, and are moved
-    bool by_number = false;  ///< the numbers of blocks are N numbers, else lines
-    PathOptions path;        ///< options for a path to be compared with this log
+    bool late = false;          ///< the numbers of blocks were late or early, and are moved
+    bool by_number = false;     ///< the numbers of blocks are N numbers, else lines
+    bool lines_from_0 = false;  ///< they are lines, and seem to be counted from 0
+    PathOptions path;           ///< options for a path to be compared with this log
     LogNoise noise = LogNoise::assumed;
     bool dense = false;        ///< neighbouring rows showed the noise
     double sigma = 0.0;        ///< mean standard uncertainty of a position, mm or deg

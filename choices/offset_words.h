@@ -12,4 +12,7 @@ namespace trunnion::choices {
 /// one that the other control has. An expression (H#1) names none.
 std::set<int> offset_words(const std::vector<interpreter::ProgramText>& texts);
 
+/// The same of P behind G54.1, G54 or G154, and of G10 L20.
+std::set<int> additional_offsets(const std::vector<interpreter::ProgramText>& texts);
+
 }  // namespace trunnion::choices

@@ -16,6 +16,7 @@ constexpr double median_of_square = 0.7;       ///< of a normal variable in two 
 constexpr double visible = 9.0;                ///< loss of an axis: a row beyond it shows a gap
 constexpr double spoiled = 5.0;                ///< rows or blocks that a wrong one counts as
 constexpr double clearly = 4.0;                ///< times the limit of a row: it is wrong
+constexpr double surely = 100.0;               ///< times it: one such row is enough
 constexpr double other_columns = 1e-3;         ///< of the loss: it is that of noise
 constexpr double most_scatter = 0.05;          ///< of the gap: a larger scatter is no noise
 constexpr double most_remainder = 0.07;        ///< of the gap, where it stays in most rows
@@ -112,7 +113,7 @@ bool stays_wrong(const std::vector<double>& before, const std::vector<double>& a
     std::size_t wrong = 0;
     for (std::size_t row = 0; row < before.size(); ++row) {
         if (after[row] <= clearly * row_limit) continue;
-        if (before[row] <= row_limit) return true;
+        if (before[row] <= row_limit || after[row] > surely * row_limit) return true;
         ++wrong;
     }
     return one_in * wrong > before.size();

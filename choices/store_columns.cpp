@@ -125,6 +125,10 @@ double value_of(const setup::Setup& setup, const StoredNumber& number) {
 std::optional<Column> column_of(const Comparer& comparer, const setup::Setup& setup,
                                 const ComparedRun& run, const StoredNumber& number,
                                 bool* other_moves) {
+    if (is_vacant(setup, number)) {
+        if (other_moves != nullptr) *other_moves = true;
+        return std::nullopt;
+    }
     const auto path_at = [&](double step) {
         setup::Setup moved = setup;
         number.in(moved) += step;

@@ -50,6 +50,7 @@ class Fitter {
         const FittedControl begun{start_, before_};
         const FarStarts starts(comparer_, begun);
         for (const StoredNumber* number : other_moves_) try_all(starts.of(*number, false));
+        try_all(starts.of_vacant(all_));
         for (const StoredNumber* number : Numbers(seen_)) try_all(starts.of(*number, true));
     }
     void try_all(std::vector<FarStart> starts) {
@@ -154,7 +155,7 @@ class Fitter {
         for (std::size_t k = 0; k < numbers_.size(); ++k) {
             const StoredNumber& number = *numbers_[k];
             const double from = value_of(start_, number), to = value_of(now_.setup, number);
-            if (std::abs(to - from) > least_change_of(comparer_.log()))
+            if (std::abs(to - from) > least_change_of(comparer_.log()) || is_vacant(start_, number))
                 out.numbers.push_back(
                     {number.name, number.unit, from, to, s[static_cast<Eigen::Index>(k)]});
         }

@@ -36,7 +36,8 @@ Store vector_store(const std::string& name, const std::string& what, const std::
     return out;
 }
 
-void add_work_offsets(const Setup& setup, const std::vector<Axis>& axes, std::vector<Store>& out) {
+void add_work_offsets(const Setup& setup, const std::vector<Axis>& axes, const ProgramStores& used,
+                      std::vector<Store>& out) {
     for (std::size_t k = 0; k < setup.stores.work.standard.size(); ++k) {
         const std::string name = "G" + std::to_string(54 + k);
         out.push_back(vector_store(
@@ -44,7 +45,8 @@ void add_work_offsets(const Setup& setup, const std::vector<Axis>& axes, std::ve
             axes, [k](Setup & s) -> auto& { return s.stores.work.standard[k]; }));
     }
     for (std::size_t k = 0; k < setup.stores.work.additional.size(); ++k) {
-        if (setup.stores.work.additional[k] == offsets::OffsetVector{}) continue;
+        const bool empty = setup.stores.work.additional[k] == offsets::OffsetVector{};
+        if (empty && !used.additional.contains(static_cast<int>(k) + 1)) continue;
         const std::string name = "G54.1P" + std::to_string(k + 1);
         out.push_back(vector_store(
             name, "work offset " + name,
@@ -53,6 +55,35 @@ void add_work_offsets(const Setup& setup, const std::vector<Axis>& axes, std::ve
     out.push_back(vector_store(
         "external", "external work offset", axes,
         [](Setup & s) -> auto& { return s.stores.work.external; }));
+}
+
+/// Along the linear axes: each number costs a run, and such shifts are set for a part.
+void add_left_shifts(const std::vector<Axis>& axes, const ProgramStores& used,
+                     std::vector<Store>& out) {
+    std::vector<Axis> linear = axes;
+    std::erase_if(linear, is_rotary);
+    if (used.left_local)
+        out.push_back(vector_store(
+            "G52", "G52 left in force before the program", linear,
+            [](Setup & s) -> auto& { return s.stores.work.local; }));
+    if (used.left_preset)
+        out.push_back(vector_store(
+            "G92", "G92 left in force before the program", linear,
+            [](Setup & s) -> auto& { return s.stores.work.preset; }));
+}
+
+/// Before the offsets: a program that puts a variable into an offset shows it as the variable. One
+/// store: what an earlier program left there, it left in all.
+void add_variables(const ProgramStores& used, std::vector<Store>& out) {
+    if (used.variables.empty()) return;
+    Store store{"common variables", "values of common variables before the program", {}};
+    for (const int number : used.variables) {
+        StoredNumber entry{'#' + std::to_string(number), "",
+                           [number](Setup& s) -> double& { return s.stores.variables[number]; }};
+        entry.variable = number;
+        store.numbers.push_back(std::move(entry));
+    }
+    out.push_back(std::move(store));
 }
 
 Store tool_store(std::size_t number, bool length) {
@@ -202,11 +233,17 @@ double& axis_value(Setup& setup, int parameter, Axis axis) {
     return p.by_axis[offsets::number_of_named_axis(all, axis, axes)];
 }
 
-std::vector<Store> store_table(const Setup& setup, const std::set<int>& called) {
+bool is_vacant(const Setup& setup, const StoredNumber& number) {
+    return number.variable != 0 && !setup.stores.variables.contains(number.variable);
+}
+
+std::vector<Store> store_table(const Setup& setup, const ProgramStores& used) {
     const std::vector<Axis> axes = axes_of(setup);
     std::vector<Store> out;
-    add_work_offsets(setup, axes, out);
-    add_tools(setup, called, out);
+    add_variables(used, out);
+    add_work_offsets(setup, axes, used, out);
+    add_left_shifts(axes, used, out);
+    add_tools(setup, used.offsets, out);
     const auto pivot = is_hurco(setup) ? table_pivot(setup, axes) : std::nullopt;
     if (pivot)
         add_centrelines(*pivot, out);

@@ -55,6 +55,14 @@ bool seems_trace(const LogOfProgram& log, const ComparedRun& run) {
            static_cast<double>(ends) >= most_at_ends * static_cast<double>(moving);
 }
 
+bool may_be_trace(const records::PositionLog& log, const ControlPath& path) {
+    const auto is_end = [](const PathNode& node) { return node.end; };
+    const auto moves =
+        static_cast<double>(std::count_if(path.nodes.begin(), path.nodes.end(), is_end));
+    const auto rows = static_cast<double>(log.rows.size());
+    return rows >= moves / rows_a_move && rows <= moves * rows_a_move;
+}
+
 records::PositionLog as_trace(records::PositionLog log) {
     log.ends = true;
     for (records::LoggedPosition& row : log.rows) row.end = true;

@@ -11,6 +11,9 @@ namespace trunnion::choices {
 /// from them as the row before. Samples do so only where the axes rest.
 bool seems_trace(const LogOfProgram& log, const ComparedRun& run);
 
+/// As many rows as the path has moves, within a half.
+bool may_be_trace(const records::PositionLog& log, const ControlPath& path);
+
 /// The same log, each row the end of a move.
 records::PositionLog as_trace(records::PositionLog log);
 

@@ -12,6 +12,7 @@
 #include "cli/setups.h"
 #include "imports/position_log.h"
 #include "inputs/program_choice.h"
+#include "interpreter/program_likeness.h"
 #include "report/control_gap_page.h"
 #include "report/control_gap_report.h"
 
@@ -23,6 +24,7 @@ choices::ControlGap found_gap(const ProgramDiagnosis& options, const setup::Setu
     const records::PositionLog log =
         imports::read_position_log(read_file_or_input(options.log), options.log, setup);
     const interpreter::ProgramText program = interpreter::read_main_program(options.program);
+    interpreter::refuse_other_files(program);
     interpreter::ProgramFolders folders = inputs::folders_of_file(program, options.folders);
     Progress progress;
     const choices::GapQuestion question{setup, log, program, options.max_blocks,

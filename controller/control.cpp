@@ -25,6 +25,8 @@ Control::Control(ControlConfig config_, offsets::Stores& stores_, motion::Motion
     if (stores.parameters.bit(0, 2)) modal.codes.set(ModalGroup::units, 200);
     mover.axes.configure(config);
     parameters_changed();
+    frames.stages.local = stores.work.local;
+    frames.stages.preset = stores.work.preset;
     frames.take_work_offset(modal);
     frames.stand_at({});
 }

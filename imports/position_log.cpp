@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <vector>
 
 #include "base/units.h"
@@ -13,6 +14,7 @@
 #include "imports/grid_step.h"
 #include "imports/log_columns.h"
 #include "imports/times.h"
+#include "imports/unknown_columns.h"
 
 namespace trunnion::imports {
 namespace {
@@ -32,6 +34,16 @@ struct PositionColumns {
     std::optional<BlockColumnFound> block;
     std::optional<std::size_t> program, motion, sigma;
     std::array<std::optional<std::size_t>, 7> arc;  ///< centre, normal, turns
+
+    std::set<std::size_t> used() const {
+        std::set<std::size_t> out;
+        for (const auto& column : {program, motion, sigma})
+            if (column) out.insert(*column);
+        for (const auto& column : arc)
+            if (column) out.insert(*column);
+        if (block) out.insert(block->column);
+        return out;
+    }
 };
 
 std::string axes_of(const setup::Setup& setup) {
@@ -184,6 +196,7 @@ class RowOrder {
               table,
               {{"time", "zeit"}, {"timestamp", "zeitstempel"}, {"elapsed", "elapsedtime"}})) {}
 
+    const std::optional<std::size_t>& column() const { return column_; }
     /// Time since the row before, in the column's unit; negative: not known.
     double check(std::size_t row, const Cells& cells) {
         if (!column_) return -1.0;
@@ -261,6 +274,9 @@ records::PositionLog read_position_log(std::string_view text, const std::string&
     log.ends = columns.motion.has_value();
     PrintedStep printed(columns);
     RowOrder order(table);
+    std::set<std::size_t> used = columns.used();
+    if (order.column()) used.insert(*order.column());
+    log.unknown = unknown_columns(table, setup.machine.chain.names(), used);
     LostRows lost;
     Cells cells;
     for (std::size_t i = 0; i < table.size(); ++i) {

@@ -19,9 +19,12 @@ struct OffsetVector {
     friend bool operator==(const OffsetVector&, const OffsetVector&) = default;
 };
 
-/// External offset, G54-G59 and G54.1 P1-P300, in machine coordinates.
+/// External offset, G54-G59 and G54.1 P1-P300, in machine coordinates; and the shifts that an
+/// earlier program left in force.
 struct WorkOffsets {
     OffsetVector external;
+    OffsetVector local;                        ///< G52 in force when a program begins
+    OffsetVector preset;                       ///< G92 in force when a program begins
     std::array<OffsetVector, 6> standard;      ///< [0] = G54
     std::array<OffsetVector, 300> additional;  ///< [0] = G54.1 P1
 };

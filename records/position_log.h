@@ -39,6 +39,7 @@ struct PositionLog {
     BlockColumn blocks = BlockColumn::none;
     double step = 0.0;  ///< least increment of the printed numbers, mm or deg
     std::vector<LoggedPosition> rows;
+    std::vector<std::string> unknown;  ///< names of columns that are not read
 };
 
 }  // namespace trunnion::records

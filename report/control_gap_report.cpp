@@ -128,7 +128,8 @@ std::string number_words(const choices::FittedNumber& n) {
         from.erase(from.find_last_not_of('0') + 1);
         if (from.back() == '.') from.pop_back();
     }
-    return fmt::format("{} from {} to {} {}", n.name, from, with_sigma(n.to, n.sigma), n.unit);
+    return fmt::format("{} from {} to {}{}{}", n.name, from, with_sigma(n.to, n.sigma),
+                       n.unit.empty() ? "" : " ", n.unit);
 }
 
 std::string verdict_sentence(const choices::ControlGap& gap) {

@@ -39,6 +39,8 @@ offsets::OffsetVector read_offset(const TomlFile& file, const TomlValue& table) 
 
 offsets::OffsetVector* find_offset(offsets::WorkOffsets& work, const std::string& name) {
     if (name == "external" || name == "EXT") return &work.external;
+    if (name == "G52") return &work.local;
+    if (name == "G92") return &work.preset;
     if (name.size() == 3 && name.starts_with("G5") && name[2] >= '4' && name[2] <= '9')
         return &work.standard[static_cast<std::size_t>(name[2] - '4')];
     if (!name.starts_with("G54.1 P")) return nullptr;
@@ -52,7 +54,9 @@ void read_work_offsets(const TomlFile& file, const TomlValue& table, offsets::Wo
         value.used = true;
         offsets::OffsetVector* offset = find_offset(work, key);
         if (!offset)
-            file.fail(value, "'" + key + "' is not G54 ... G59, \"G54.1 P1\" ... P300 or external");
+            file.fail(value, "'" + key +
+                                 "' is not G54 ... G59, \"G54.1 P1\" ... P300, external, G52 or "
+                                 "G92");
         *offset = read_offset(file, value);
     }
 }

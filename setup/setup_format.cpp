@@ -166,6 +166,8 @@ std::string work_text(const offsets::WorkOffsets& work) {
         if (offset != offsets::OffsetVector{}) out += key + " = " + offset_text(offset) + '\n';
     };
     add("external", work.external);
+    add("G52", work.local);
+    add("G92", work.preset);
     for (std::size_t i = 0; i < work.standard.size(); ++i)
         add("G5" + std::to_string(4 + i), work.standard[i]);
     for (std::size_t i = 0; i < work.additional.size(); ++i)

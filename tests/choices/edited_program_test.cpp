@@ -113,7 +113,8 @@ TEST_CASE("a stale offset is as sure as before where no edit of one block does t
     CHECK(unseen.verdict == GapVerdict::no_gap);
     const auto other = gap_of(here, log_of(there, mill), mill);
     REQUIRE(other.causes.size() == 1);
-    CHECK(other.causes[0].rivals == std::vector<std::string>{"external"});
+    CHECK(other.causes[0].rivals ==
+          std::vector<std::string>{"external", "G52", "G92", "machine zero"});
 }
 
 }  // namespace trunnion

@@ -65,3 +65,32 @@ TEST_CASE("diagnose --program: the page has the notes on sampling and numbers of
                          Catch::Contains("the numbers of blocks are N numbers of the program") &&
                          Catch::Contains("out and back between two samples"));
 }
+
+TEST_CASE("diagnose --program: a column that nobody reads is told, those of a trace are not") {
+    const Bench bench;
+    const std::string plain = square_log("N,x_mm,y_mm,z_mm\n", {0, 1, 2});
+    std::string more = "N,x_mm,y_mm,z_mm,quill\n";
+    std::istringstream lines(plain);
+    std::string line;
+    std::getline(lines, line);
+    while (std::getline(lines, line)) more += line + ",1.25\n";
+    ask(bench, more);
+    CHECK_THAT(bench.read("err.txt"), Catch::Contains("columns that are not read: quill"));
+    ask(bench, plain);
+    CHECK_THAT(bench.read("err.txt"), !Catch::Contains("not read"));
+    bench.asked(mill, {}, {}, " --trace-step 1");
+    CHECK_THAT(bench.read("err.txt"), !Catch::Contains("not read"));
+}
+
+TEST_CASE("diagnose --program refuses a file that is no program") {
+    const Bench bench;
+    bench.asked(mill, {}, {});
+    const std::string bytes("MZ\0\1\2\3", 6);
+    for (const std::string& file : {bench.read("log.csv"), bench.read("here.toml"), bytes}) {
+        bench.write("part.nc", file);
+        CHECK(bench.trunnion("diagnose " + bench.file("log.csv") + " --program " +
+                             bench.file("part.nc") + " --setup " + bench.file("here.toml")) == 2);
+        CHECK_THAT(bench.read("err.txt"), Catch::Contains("is no NC program"));
+        CHECK(bench.read("out.txt").empty());
+    }
+}

@@ -75,15 +75,34 @@ G1 X9. F200
 G91 G28 X0 Y0
 G90 X3.
 """
+STALE = HEAD + """G0 X[20.+#500] Y10.
+G1 Z2. F300
+X30.
+Y[12.-#500]
+G0 Z30.
+"""
+TWO_OFFSETS = HEAD + """G0 X20. Y10. Z25.
+G1 Z2. F300
+X30.
+G0 Z30.
+G55 X5. Y5.
+G1 Z1. F300
+X25.
+Y-10.
+G0 Z30.
+"""
 USUAL = {3401: '"00000001"', 3410: "0.01", 5006: '"01000000"', 5114: "0.254", 5115: "0.254",
          6004: '"00000001"'}
 
 
 class Case:
-    """One program; `wrong` parameters, offset and tool differ from what LinuxCNC does."""
+    """One program; `wrong` parameters, offset and tool differ from what LinuxCNC does. `left`: what
+    an earlier program left in LinuxCNC's variables; `rivals` of the cause that must be named."""
 
-    def __init__(self, name, text, wrong, answers, tool_mm=TOOL_MM, offset_mm=OFFSET_MM):
+    def __init__(self, name, text, wrong, answers, tool_mm=TOOL_MM, offset_mm=OFFSET_MM, left=None,
+                 rivals=()):
         self.name, self.text, self.answers = name, text, answers
+        self.left, self.rivals = left or {}, set(rivals)
         self.parameters = {**USUAL, **wrong}
         self.tool_mm, self.offset_mm = tool_mm, offset_mm
 
@@ -119,16 +138,20 @@ CASES = [
          offset_mm=(12.53, -8.0, 3.2)),
     Case("tool", LENGTH, {}, {"H1": {"H1": TOOL_MM}}, tool_mm=10.46),
     Case("reference point", REFERENCE, {}, {}),
+    Case("variable", STALE, {}, {"common variables": {"#500": 2.5}}, left={500: 2.5}),
+    Case("left G92", TWO_OFFSETS, {}, {"external": {"external.X": 0.75, "external.Y": -2.0}},
+         left={5210: 1, 5211: 0.75 / INCH_MM, 5212: -2.0 / INCH_MM}, rivals=("G52", "G92")),
     Case("no switch", ROUNDING, {}, None),
 ]
 
 
-def run_rs274(program):
+def run_rs274(program, left):
     with open("tools.tbl", "w") as f:
         f.write(f"T1 P1 Z{TOOL_MM / INCH_MM:.9f}\n")
-    offsets = {5221 + k: v / INCH_MM for k, v in enumerate(OFFSET_MM)}
+    values = {n: 0 for n in range(5161, 5391)} | {5220: 1} | left
+    values |= {5221 + k: v / INCH_MM for k, v in enumerate(OFFSET_MM)}
     with open("rs274.var", "w") as f:
-        f.writelines(f"{n} {1 if n == 5220 else offsets.get(n, 0)}\n" for n in range(5161, 5391))
+        f.writelines(f"{n} {values[n]}\n" for n in sorted(values))
     done = subprocess.run(["rs274", "-t", "tools.tbl", "-v", "rs274.var", "-g", program],
                           capture_output=True, text=True)
     if "PROGRAM_END" not in done.stdout:
@@ -179,6 +202,8 @@ def fault(case, result):
         return None if result["verdict"] == "no-gap" else result["verdict"]
     if result["verdict"] not in ("explained", "ambiguous"):
         return result["verdict"]
+    if any(not case.rivals <= set(c["rivals"]) for c in result["causes"]):
+        return f"no {sorted(case.rivals)} among the rivals"
     if any(c["probability"] >= 1 for c in result["causes"]):
         return "probability 1"
     return None if result["after"]["explained"] > 0.99 else "explained too little"
@@ -196,7 +221,7 @@ def main():
         for name, text in (("part.nc", case.program()), ("setup.toml", case.setup())):
             with open(name, "w") as f:
                 f.write(text)
-        write_log(run_rs274("part.nc"))
+        write_log(run_rs274("part.nc", case.left))
         done = subprocess.run([trunnion, "diagnose", "log.csv", "--program", "part.nc", "--setup",
                                "setup.toml", "--json"], capture_output=True, text=True)
         if done.returncode:
