@@ -6,17 +6,13 @@
 #include <cmath>
 #include <map>
 
+#include "diagnosis/prepare/outliers.h"
 #include "diagnosis/reading_sizes.h"
 #include "diagnosis/rules/rules.h"
 #include "estimation/distributions.h"
 
 namespace trunnion::diagnosis {
 namespace {
-
-bool is_spoiled(const Outcome& f) {
-    return static_cast<double>(set_aside(f)) >
-           rules::most_outliers * static_cast<double>(f.used.size());
-}
 
 /// True where the noise is assumed, and what is left of the readings follows nothing.
 bool is_unstated_scatter(const Outcome& f, const Diagnosis& d) {
@@ -100,7 +96,7 @@ Cause unknown_cause(const Outcome& f, const Diagnosis& d) {
         places += fmt::format(": it {} ({})", group.text, group.component);
     }
     if (places.empty()) cause.probability = probability_of_unknown(f);
-    if (is_spoiled(f) && places.empty()) {
+    if (are_spoiled(f.used) && places.empty()) {
         // Laplace's rule of succession: that many were seen.
         const auto count = static_cast<double>(set_aside(f));
         cause.probability = std::max(cause.probability.value(), (count + 1.0) / (count + 2.0));
@@ -143,7 +139,7 @@ Cause unknown_cause(const Outcome& f, const Diagnosis& d) {
 
 bool leaves_something(const Outcome& f, const Diagnosis& d) {
     return d.verdict == Verdict::unexplained || d.verdict == Verdict::partly_explained ||
-           is_spoiled(f);
+           are_spoiled(f.used);
 }
 
 std::string set_aside_words(const Outcome& f) {

@@ -9,7 +9,7 @@ namespace trunnion::diagnosis {
 std::string set_aside_words(const Outcome& found);
 
 /// True where an unknown cause stands in the report: the gap is not explained, or more readings
-/// were set aside than a few spoiled ones (rules::most_outliers), whatever the causes explain of
+/// were set aside than a few spoiled ones (are_spoiled()), whatever the causes explain of
 /// the others.
 bool leaves_something(const Outcome& found, const Diagnosis& diagnosis);
 

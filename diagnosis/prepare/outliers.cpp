@@ -154,4 +154,11 @@ std::vector<std::size_t> wild_readings(const Eigen::VectorXd& left, const std::v
     return keep ? std::vector<std::size_t>{} : wild;
 }
 
+bool are_spoiled(const std::vector<bool>& used) {
+    constexpr double deviations = 2.0;  // of the number of rare events
+    const double expected = rules::most_outliers * static_cast<double>(used.size());
+    const auto count = static_cast<double>(std::count(used.begin(), used.end(), false));
+    return count > expected + deviations * std::sqrt(expected);
+}
+
 }  // namespace trunnion::diagnosis

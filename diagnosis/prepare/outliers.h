@@ -20,4 +20,8 @@ std::vector<std::size_t> lone_probe_readings(const Prepared& prepared,
 std::vector<std::size_t> wild_readings(const Eigen::VectorXd& left, const std::vector<bool>& used,
                                        const std::vector<records::Device>& devices);
 
+/// True for more spoiled readings than an instrument has (4 %), beyond chance: of 60 readings more
+/// than five, of 2,000 more than 97. Then there is a gap of some kind.
+bool are_spoiled(const std::vector<bool>& used);
+
 }  // namespace trunnion::diagnosis

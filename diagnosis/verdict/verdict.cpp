@@ -7,6 +7,7 @@
 
 #include "diagnosis/groups/few_places.h"
 #include "diagnosis/groups/ripples.h"
+#include "diagnosis/prepare/outliers.h"
 #include "diagnosis/prepare/places.h"
 #include "diagnosis/rules/rules.h"
 #include "diagnosis/verdict/alike_readings.h"
@@ -280,9 +281,7 @@ Judgement judged(FoldColumns& rows, const Prepared& prepared, const Model& model
     j.between_places = share_of_tables(sizes, local) <= rules::between_part;
     // More than noise may be whatever nothing that was found predicts: a wandering machine.
     const bool beyond_noise = std::max(nu2, j.before - j.floor * unknowns) > noise.most;
-    // So are more spoiled readings than an instrument has.
-    const auto count = static_cast<double>(std::count(used.begin(), used.end(), false));
-    const bool spoiled = count > rules::most_outliers * static_cast<double>(used.size());
+    const bool spoiled = are_spoiled(used);
     j.chance = chance_of(design, model, noise.model, sizes);
     j.repeated = noise.model.source == NoiseSource::repeats;
     j.gap = spoiled || beyond_noise || is_gap(design, model, j, sizes, saving_of(before, after));

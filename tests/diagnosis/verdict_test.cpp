@@ -75,6 +75,19 @@ TEST_CASE("few and scattered readings are wild, many or neighbours are an effect
     CHECK(wild(20, 100, 3) == std::vector<std::size_t>{20, 220});
 }
 
+TEST_CASE("more spoiled readings than four of a hundred by chance are a gap", "[diagnosis]") {
+    const auto are_spoiled = [](std::size_t readings, std::size_t spoiled) {
+        std::vector<bool> used(readings, true);
+        std::fill_n(used.begin(), spoiled, false);
+        return diagnosis::are_spoiled(used);
+    };
+    CHECK_FALSE(are_spoiled(100, 0));
+    CHECK_FALSE(are_spoiled(100, 8));
+    CHECK(are_spoiled(100, 9));
+    CHECK_FALSE(are_spoiled(2500, 120));
+    CHECK(are_spoiled(2500, 121));
+}
+
 // With ten readings a driver of six columns would explain nearly anything.
 TEST_CASE("where the gap is needs five readings more than a driver has columns", "[diagnosis]") {
     for (const Eigen::Index rows : {12, 200}) {
