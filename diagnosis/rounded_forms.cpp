@@ -2,33 +2,22 @@
 
 #include <algorithm>
 
-#include "estimation/quantiles.h"
+#include "diagnosis/prepare/noise.h"
 
 namespace trunnion::diagnosis {
 namespace {
 
+// Assumed:
 constexpr double nothing_else = 0.8;  ///< part of the noise that is rounding: nothing dithers
 constexpr double as_large = 1.3;      ///< errors of rounding: those of one curve may be larger
 constexpr double as_likely = 0.4;     ///< probability at most
 
-/// Deviation of the errors of rounding, in that of the noise: median of the readings.
-double rounding_of(const Outcome& f) {
-    const Prepared& p = f.prepared;
-    std::vector<double> parts;
-    for (std::size_t i = 0; i < f.used.size(); ++i) {
-        if (!f.used[i]) continue;
-        const auto row = static_cast<Eigen::Index>(i);
-        const double noise_mm =
-            f.noise.model.of(p.replay.contact(i).device).scale * p.base.sigma_mm(row);
-        parts.push_back(p.rounding_mm(row) / noise_mm);
-    }
-    return parts.empty() ? 0.0 : estimation::median(std::move(parts));
-}
-
 }  // namespace
 
 void doubt_rounded_forms(const Outcome& f, std::vector<Claim>& claims) {
-    const double rounding = rounding_of(f);
+    const Prepared& p = f.prepared;
+    const RepeatedRows rows{p.replay, p.table, p.blocks, f.used, p.cycle, p.rounding_mm};
+    const double rounding = least_by_rounding(rows, p.base.sigma_mm, f.noise.model);
     if (rounding < nothing_else) return;
     for (Claim& claim : claims) {
         const GroupKind kind = f.design.group(f.model.members[claim.position]).kind;

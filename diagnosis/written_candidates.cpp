@@ -85,21 +85,23 @@ std::vector<bool> predicting_elsewhere(const Outcome& f, const Folds& paths) {
     for (std::size_t k = 0; k < kept.size(); ++k)
         kept[k] = kept[k] || holds_at_places(f, f.model.members[k]);
     // What holds at the places alone does there what the others do, and says nothing of them.
-    const auto beside = [&](std::size_t k) {
-        std::vector<bool> others = kept;
-        for (std::size_t m = 0; m < others.size(); ++m)
-            if (f.judgement.interpolates[k] && !f.judgement.interpolates[m]) others[m] = false;
-        return others;
+    const auto between = [&] {
+        std::vector<bool> list = kept;
+        for (std::size_t k = 0; k < list.size(); ++k)
+            list[k] = list[k] && f.judgement.interpolates[k];
+        return list;
     };
     for (;;) {
+        const std::vector<bool> elsewhere = between();
+        const BlockLoss with_all = loss(kept), with_those = loss(elsewhere);
         std::optional<std::size_t> worst;
         double least = 1e300;
         for (std::size_t k = 0; k < kept.size(); ++k) {
             if (!kept[k] || !has_searched_form(f.design.group(f.model.members[k]).kind)) continue;
-            std::vector<bool> rest = beside(k);
-            const BlockLoss with = loss(rest);
+            const bool local = !f.judgement.interpolates[k];
+            std::vector<bool> rest = local ? kept : elsewhere;
             rest[k] = false;
-            const Saving saving = saving_of(loss(rest), with);
+            const Saving saving = saving_of(loss(rest), local ? with_all : with_those);
             const double contribution = parts.col(static_cast<Eigen::Index>(k)).squaredNorm();
             if (helps(saving, contribution) || saving.t >= least) continue;
             least = saving.t;

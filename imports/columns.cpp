@@ -89,13 +89,11 @@ NumberColumn number_column(const TextTable& table, std::size_t index, Quantity q
                                      "--with unit=um",
                                  column.column);
     if (!unit || unit->quantity != quantity) {
-        // The axis that is not told is taken for a linear one.
         const bool turned =
             unit && unit->quantity == Quantity::angle && quantity == Quantity::length;
         table.header_line().fail(
             "'" + name + "' is no unit for '" + column.name + "' here" +
-                (turned ? ": a length is expected, unless the axis is a rotary one (--with axis=C)"
-                        : ""),
+                (turned ? ": it is a unit of angle, and no rotary axis is told" : ""),
             column.column);
     }
     const bool parts =

@@ -35,7 +35,8 @@ bool repeats_both_sides(const Prepared& p, Axis axis, const std::vector<double>&
     for (std::size_t i = 0; i < places.size(); ++i) {
         const auto [k, w] = estimation::place_between(knots, places[i]);
         const auto nearest = static_cast<std::size_t>(k) + (w > 0.5 ? 1 : 0);
-        ++(p.replay.sample(i).travel[index_of(axis)] > 0 ? forward : back)[nearest];
+        const int travel = p.replay.sample(i).travel[index_of(axis)];
+        if (travel != 0) ++(travel > 0 ? forward : back)[nearest];
     }
     std::size_t twice = 0;
     for (std::size_t k = 0; k < knots.size(); ++k)

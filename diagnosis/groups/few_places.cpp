@@ -163,7 +163,7 @@ bool bends_at_few_places(const Design& design, const Prepared& prepared, const M
 
 bool is_alias_of_finer(Design& design, const Prepared& prepared, const Model& model,
                        std::size_t position) {
-    constexpr double most_part = 0.2;  // of the squares of a table
+    constexpr double most_part = 0.2;  // of the squares of a table (assumed)
     const ColumnGroup& group = design.group(model.members[position]);
     const TableForm& table = group.table;
     if (group.kind != GroupKind::table || !table.knots.empty()) return false;

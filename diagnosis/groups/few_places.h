@@ -30,9 +30,9 @@ bool is_side_of_places(const Prepared& prepared, const effects::Effect& effect);
 bool bends_at_few_places(const Design& design, const Prepared& prepared, const Model& model,
                          std::size_t position);
 
-/// True for harmonics of a turn, read at places in equal steps, of which a fifth or more is of
-/// orders above a third of their number: less than twice as fine a wave has the same values there
-/// (order 7 at every 30 degrees those of order 5).
+/// True for harmonics of a turn that was read in equal steps, if a fifth of their squares or more
+/// is of orders above a third of the number of places (assumed). A wave that is less than twice as
+/// fine has the same values there: order 7 at every 30 degrees has those of order 5.
 bool is_alias_of_finer(Design& design, const Prepared& prepared, const Model& model,
                        std::size_t position);
 

@@ -37,7 +37,7 @@ double part_of(const Judgement& j, double unknowns) {
 
 void see_neighbours(const Prepared& p, const std::vector<bool>& used,
                     const Eigen::VectorXd& remainder, double unknowns, Judgement& j) {
-    constexpr double beyond_digit = 2.0;
+    constexpr double beyond_digit = 2.0;  // of the variance that is expected (assumed)
     const auto rows = static_cast<Eigen::Index>(used.size());
     const Eigen::VectorXd left = remainder.head(rows), one = Eigen::VectorXd::Ones(rows);
     NeighbourNoise near = noise_of_neighbours(p.replay, used, left, one);

@@ -286,7 +286,7 @@ Eigen::VectorXd part_of_cause(const Design& design, const Model& model, const Si
 
 /// True for a member of which the columns of the other causes do less than four fifths.
 bool stands_apart(const Design& design, const Model& model, std::size_t position) {
-    constexpr double least_outside = 0.2;
+    constexpr double least_outside = 0.2;  // of its squares (assumed)
     std::set<Eigen::Index> others;
     for (std::size_t k = 0; k < model.members.size(); ++k)
         if (const ColumnGroup& group = design.group(model.members[k]);
@@ -301,7 +301,7 @@ bool stands_apart(const Design& design, const Model& model, std::size_t position
 bool works_against_others(const Design& design, const Model& model, const Sizes& sizes,
                           std::size_t position) {
     constexpr double by_chance = -0.3;  // cosine between both
-    constexpr double small = 0.1;       // of the squares of the others
+    constexpr double small = 0.1;       // of the squares of the others (assumed)
     if (sizes.along[position] > 0.0) return false;
     const ColumnGroup& group = design.group(model.members[position]);
     const Eigen::VectorXd own = part_of_cause(design, model, sizes, group.name);

@@ -114,6 +114,23 @@ TEST_CASE("a rotary axis that turns little may have a large gain, one that stand
     CHECK(usual(1.1e-3) == Approx(15e-6 * 0.3 / 1.1e-3));
 }
 
+// The prior of a drift's size takes the time of the readings from there (log_prior_of_size()).
+TEST_CASE("time constants of a drift are looked for up to three times the time of the readings",
+          "[effects]") {
+    const Physics physics;
+    for (const double time_s : {600.0, 5000.0}) {
+        effects::DataExtent extent;
+        extent.end_s = time_s;
+        const effects::Effect drift =
+            *effects::find_effect(effects::make_catalogue(physics.setup, extent), "thermal.drift");
+        const auto at =
+            std::find_if(drift.parameters.begin(), drift.parameters.end(),
+                         [](const effects::EffectParameter& p) { return p.name == "tau_s"; });
+        REQUIRE(at != drift.parameters.end());
+        CHECK(at->grid.back() == Approx(3.0 * time_s));
+    }
+}
+
 TEST_CASE("a drift counts from the first reading where the clock starts late", "[effects]") {
     const Physics physics;
     const auto from_s = [&](double start_s) {
