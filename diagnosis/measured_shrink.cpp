@@ -8,6 +8,7 @@
 #include "diagnosis/prepare/outliers.h"
 #include "effects/settings.h"
 #include "estimation/quantiles.h"
+#include "identification/resolution.h"
 
 namespace trunnion::diagnosis {
 namespace {
@@ -53,13 +54,15 @@ Eigen::VectorXd beside(const records::ReadingTable& table, const emulator::Repla
 
 /// Readings far from the prediction with the causes, by the rule for the fit, unless the causes
 /// themselves put them there.
-std::vector<bool> not_spoiled(const Separate& held) {
+std::vector<bool> not_spoiled(const Separate& held, const records::ReadingTable& table) {
+    const Eigen::VectorXd digit =
+        last_digit(identification::rounding(table, held.replay)).cwiseQuotient(held.sigma_mm);
     Eigen::VectorXd before = held.before_mm, after = held.after_mm;
     free_medians(held.zeros, before);
     free_medians(held.zeros, after);
     std::vector<bool> used(held.replay.size(), true);
-    for (const std::size_t i :
-         wild_readings(after.cwiseQuotient(held.sigma_mm), used, devices_of(held.replay))) {
+    for (const std::size_t i : wild_readings(
+             {after.cwiseQuotient(held.sigma_mm), digit, devices_of(held.replay)}, used)) {
         const auto at = static_cast<Eigen::Index>(i);
         used[i] = std::abs(after(at) - before(at)) > 0.5 * std::abs(after(at));
     }
@@ -79,7 +82,7 @@ Separate separate(const Outcome& f, const setup::Setup& setup, const records::Re
                                std::sqrt(f.judgement.floor) * f.noise.model.of(block.device).scale;
     held.before_mm = beside(table, held.replay, held.replay.predict(f.prepared.base.models));
     held.after_mm = beside(table, fitted, fitted.predict(effects::active_models(setup)));
-    held.used = not_spoiled(held);
+    held.used = not_spoiled(held, table);
     free_means(held.zeros, held.used, held.sigma_mm, held.before_mm);
     free_means(held.zeros, held.used, held.sigma_mm, held.after_mm);
     return held;

@@ -17,7 +17,7 @@ constexpr std::size_t least_places = 8;
 constexpr double least_turns = 2.0, most_hole = 0.4, least_spacings = 2.0, least_outside = 0.2;
 /// Of a spike: one that does not decay on the way between two readings is a backlash.
 constexpr double least_other = 0.01;
-constexpr double same_frequency = 1e-3;  ///< cycles in one step of a grid
+constexpr double same_cycles = 0.1;  ///< two ripples are alike that part by less over all positions
 /// Keys with the same values that are listed. A step of 20 m reaches it; a wild coordinate of
 /// 1e9 mm would have some 1e9 of them.
 constexpr std::size_t most_aliases = 10'000;
@@ -107,14 +107,16 @@ double frequency_on_grid(double step, double period) {
 }
 
 /// Keys of the catalogue with the same values as the ripple on a grid of this step, longest period
-/// first: any period m / step +- 1 / period, or a number of periods in a turn.
-std::vector<double> aliases_on(double step, const Ripple& ripple) {
+/// first: any period m / step +- 1 / period, or a number of periods in a turn. `range` of the grid.
+std::vector<double> aliases_on(double step, double range, const Ripple& ripple) {
     std::vector<double> list;
     const auto [least, most] = std::minmax_element(ripple.offered.begin(), ripple.offered.end());
     const double own = frequency_on_grid(step, ripple.period);
     if (ripple.counts) {
+        // Angles rounded to 0.001 deg have a fine grid: in one of its steps all ripples are alike.
+        const double same = same_cycles * step / range;
         for (double count = std::ceil(*least); count <= *most; ++count)
-            if (std::abs(frequency_on_grid(step, 2.0 * pi / count) - own) < same_frequency)
+            if (std::abs(frequency_on_grid(step, 2.0 * pi / count) - own) < same)
                 list.push_back(count);
     } else {
         for (double cycles = 0.0; step / (cycles + 0.5) >= *least && list.size() < most_aliases;
@@ -135,7 +137,7 @@ void take_longest_period(const std::vector<double>& places, const Ripple& ripple
                          std::vector<double>& keys) {
     const double step = step_of(places);
     if (step == 0.0 || ripple.period >= least_spacings * step) return;
-    for (const double alias : aliases_on(step, ripple))
+    for (const double alias : aliases_on(step, places.back() - places.front(), ripple))
         if (ripple.period_of(alias) > ripple.period_of(keys[ripple.key])) keys[ripple.key] = alias;
 }
 
@@ -161,9 +163,10 @@ bool separable(const Design& design, std::size_t group, const std::vector<Eigen:
 /// Other keys of a ripple with the same values at all positions.
 std::vector<double> other_periods(const Prepared& prepared, const Ripple& ripple,
                                   const std::vector<double>& keys) {
-    const double step = step_of(places_for(prepared, ripple.axis));
+    const std::vector<double> places = places_for(prepared, ripple.axis);
+    const double step = step_of(places);
     if (step == 0.0) return {};
-    std::vector<double> list = aliases_on(step, ripple);
+    std::vector<double> list = aliases_on(step, places.back() - places.front(), ripple);
     const double own = keys[ripple.key];
     std::erase_if(list, [&](double key) { return std::abs(key - own) < 1e-2 * own; });
     return list;

@@ -111,18 +111,21 @@ std::vector<std::size_t> lone_probe_readings(const Prepared& prepared,
                                              const std::vector<bool>& used) {
     std::vector<bool> kept = used;
     std::vector<std::size_t> lone;
+    const Eigen::ArrayXd digit =
+        last_digit(prepared.rounding_mm).array() / prepared.base.sigma_mm.array();
     const auto is_probe_row = [&](std::size_t i) {
         const records::Device device = prepared.replay.contact(i).device;
         return device == records::Device::sphere || device == records::Device::touch;
     };
     for (int pass = 0; pass < 40; ++pass) {
-        const Eigen::VectorXd z = studentised(prepared.base, kept).cwiseAbs();
+        const Eigen::ArrayXd all = studentised(prepared.base, kept).cwiseAbs();
+        const Eigen::ArrayXd z = (all - digit).max(0.0);
         std::vector<double> size;
         double worst = 0.0;
         for (std::size_t i = 0; i < kept.size(); ++i) {
             if (!kept[i] || !is_probe_row(i)) continue;
-            size.push_back(z(static_cast<Eigen::Index>(i)));
-            worst = std::max(worst, size.back());
+            size.push_back(all(static_cast<Eigen::Index>(i)));
+            worst = std::max(worst, z(static_cast<Eigen::Index>(i)));
         }
         const double limit = largest_by_chance(static_cast<double>(used.size())) *
                              std::max(least_deviation, estimation::robust_deviation(size));
@@ -140,17 +143,24 @@ std::vector<std::size_t> lone_probe_readings(const Prepared& prepared,
     return keep ? std::vector<std::size_t>{} : lone;
 }
 
-std::vector<std::size_t> wild_readings(const Eigen::VectorXd& left, const std::vector<bool>& used,
-                                       const std::vector<records::Device>& devices) {
+Eigen::VectorXd last_digit(const Eigen::VectorXd& rounding_mm) {
+    return std::sqrt(12.0) * rounding_mm;
+}
+
+std::vector<std::size_t> wild_readings(const NoisyResiduals& rows, const std::vector<bool>& used) {
+    const auto size_of = [&](std::size_t i) {
+        return std::abs(rows.left(static_cast<Eigen::Index>(i)));
+    };
     std::vector<double> size;
     for (std::size_t i = 0; i < used.size(); ++i)
-        if (used[i]) size.push_back(std::abs(left(static_cast<Eigen::Index>(i))));
+        if (used[i]) size.push_back(size_of(i));
     const double limit = std::max(wild_sigma, largest_by_chance(static_cast<double>(size.size()))) *
                          std::max(least_deviation, estimation::robust_deviation(size));
     std::vector<std::size_t> wild;
     for (std::size_t i = 0; i < used.size(); ++i)
-        if (used[i] && std::abs(left(static_cast<Eigen::Index>(i))) > limit) wild.push_back(i);
-    const bool keep = too_many(wild.size(), used.size()) || crowded(wild, devices);
+        if (used[i] && size_of(i) > limit + rows.digit(static_cast<Eigen::Index>(i)))
+            wild.push_back(i);
+    const bool keep = too_many(wild.size(), used.size()) || crowded(wild, rows.devices);
     return keep ? std::vector<std::size_t>{} : wild;
 }
 

@@ -15,10 +15,20 @@ std::vector<records::Device> devices_of(const emulator::Replay& replay);
 std::vector<std::size_t> lone_probe_readings(const Prepared& prepared,
                                              const std::vector<bool>& used);
 
-/// Readings of `used` far from the prediction of a model (`left`: residuals divided by the noise),
-/// by the same rule.
-std::vector<std::size_t> wild_readings(const Eigen::VectorXd& left, const std::vector<bool>& used,
-                                       const std::vector<records::Device>& devices);
+/// One count of the last digit of each row, from the deviation of its rounding, mm or rad. No
+/// reading is spoiled that is off by less: of a display coarser than the noise nearly all values
+/// agree, and the others show the next digit.
+Eigen::VectorXd last_digit(const Eigen::VectorXd& rounding_mm);
+
+/// Residuals of rows with the devices, divided by the noise, and one digit of them in the same
+/// unit.
+struct NoisyResiduals {
+    Eigen::VectorXd left, digit;
+    std::vector<records::Device> devices;
+};
+
+/// Readings of `used` far from the prediction of a model, by the same rule.
+std::vector<std::size_t> wild_readings(const NoisyResiduals& rows, const std::vector<bool>& used);
 
 /// True for more spoiled readings than an instrument has (4 %), beyond chance: of 60 readings more
 /// than five, of 2,000 more than 97. Then there is a gap of some kind.

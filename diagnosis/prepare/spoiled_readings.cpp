@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "diagnosis/prepare/outliers.h"
 #include "diagnosis/rules/rules.h"
 #include "estimation/quantiles.h"
 #include "estimation/trimmed_fit.h"
@@ -77,9 +78,12 @@ DoubtfulReadings doubtful_readings(const Prepared& prepared, const LinearModel& 
     DoubtfulReadings doubtful;
     doubtful.usual = std::max(prepared.base.noise_given ? least_scale : least_assumed,
                               estimation::robust_deviation(std::move(size)));
+    const Eigen::ArrayXd digit =
+        last_digit(prepared.rounding_mm).array() / prepared.base.sigma_mm.array();
     for (const std::size_t i : rows) {
-        const double own = left(static_cast<Eigen::Index>(i));
-        if (own <= far_off * doubtful.usual) continue;
+        const auto at = static_cast<Eigen::Index>(i);
+        const double own = left(at);
+        if (own <= far_off * doubtful.usual + digit(at)) continue;
         doubtful.rows.push_back(i);
         doubtful.largest = std::max(doubtful.largest, own);
     }

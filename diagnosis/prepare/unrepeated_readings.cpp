@@ -5,6 +5,7 @@
 #include <map>
 
 #include "diagnosis/prepare/cycle_zeros.h"
+#include "diagnosis/prepare/outliers.h"
 #include "diagnosis/rules/rules.h"
 #include "estimation/quantiles.h"
 #include "estimation/scatter.h"
@@ -30,16 +31,18 @@ std::map<Eigen::Index, std::vector<Eigen::Index>> places_of(const std::vector<St
     return places;
 }
 
-/// The values of one place that are far from their median; of two, both or none.
-std::vector<std::size_t> refuted_of(const std::vector<double>& values) {
+/// The values of one place that are far from their median, by more than a digit; of two, both or
+/// none.
+std::vector<std::size_t> refuted_of(const std::vector<double>& values, double digit) {
     std::vector<std::size_t> list;
     if (values.size() == 2) {
-        if (std::abs(values[0] - values[1]) > far_from_others * std::sqrt(2.0)) list = {0, 1};
+        if (std::abs(values[0] - values[1]) > far_from_others * std::sqrt(2.0) + digit)
+            list = {0, 1};
         return list;
     }
     const double middle = estimation::median(values);
     for (std::size_t k = 0; k < values.size(); ++k)
-        if (std::abs(values[k] - middle) > far_from_others) list.push_back(k);
+        if (std::abs(values[k] - middle) > far_from_others + digit) list.push_back(k);
     return list;
 }
 
@@ -55,6 +58,7 @@ bool are_neighbours(const std::vector<std::size_t>& rows) {
 std::vector<std::size_t> unrepeated_readings(const Prepared& p, const std::vector<bool>& used) {
     if (p.cycle.empty()) return {};
     const RepeatedRows rows{p.replay, p.table, p.blocks, used, p.cycle, p.rounding_mm};
+    const Eigen::VectorXd digit_mm = last_digit(p.rounding_mm);
     std::vector<std::size_t> spoiled;
     for (auto& [device, list] :
          differences_of(rows, compared_rows(p.blocks, used), p.base.residual_mm, p.base.sigma_mm)) {
@@ -63,10 +67,13 @@ std::vector<std::size_t> unrepeated_readings(const Prepared& p, const std::vecto
             p.cycle, p.base.sigma_mm, least_scatter(rows, p.base.sigma_mm, device), list);
         for (const auto& [first, place] : places_of(list)) {
             std::vector<double> values;
-            for (const Eigen::Index row : place)
-                values.push_back((p.base.residual_mm(row) - told.zero_mm(row)) /
-                                 (told.deviation * p.base.sigma_mm(row)));
-            for (const std::size_t k : refuted_of(values))
+            double most_digit = 0.0;
+            for (const Eigen::Index row : place) {
+                const double noise_mm = told.deviation * p.base.sigma_mm(row);
+                values.push_back((p.base.residual_mm(row) - told.zero_mm(row)) / noise_mm);
+                most_digit = std::max(most_digit, digit_mm(row) / noise_mm);
+            }
+            for (const std::size_t k : refuted_of(values, most_digit))
                 spoiled.push_back(static_cast<std::size_t>(place[k]));
         }
     }

@@ -11,6 +11,7 @@
 #include "diagnosis/prepare/places.h"
 #include "diagnosis/rules/rules.h"
 #include "diagnosis/verdict/alike_readings.h"
+#include "diagnosis/verdict/chance.h"
 #include "estimation/distributions.h"
 #include "estimation/ranked_least_squares.h"
 
@@ -167,23 +168,6 @@ double evidence_beside_zeros(Design& design, const Model& model,
     return evidence(design, model) - best;
 }
 
-/// Chance that a model explains so much of noise, for as many effects as there are. Noise that
-/// repeats tell is known as well as they are many.
-double chance_of(const Design& design, const Model& model, const NoiseModel& noise,
-                 const Sizes& sizes) {
-    constexpr double effects_tried = 60.0;
-    if (model.members.empty()) return 1.0;
-    const Eigen::VectorXd y = design.projection().beside(design.data());
-    double width = 0.0;
-    for (const std::size_t m : model.members)
-        width += static_cast<double>(design.group(m).columns());
-    const double explained = (y.squaredNorm() - sizes.remainder.squaredNorm()) / sizes.floor;
-    const double one = noise.doubt > 0.0 ? estimation::f_tail(explained / width, width,
-                                                              2.0 / (noise.doubt * noise.doubt))
-                                         : estimation::chi_squared_tail(explained, width);
-    return std::min(1.0, effects_tried * one);
-}
-
 /// True where all that was found is a course of time, beside the zeros of several tests: these
 /// scatter, and over few tests a scatter is such a course.
 bool is_course_of_zeros(const Design& design, const Model& model) {
@@ -205,11 +189,14 @@ bool is_gap(Design& design, const Model& model, const Judgement& j, const Sizes&
         if (kind_of(design, model, k) == GroupKind::driver) driver += sizes.square[k];
     // The evidence weighs what a certain cause needs: that there is any may be sure without it.
     const bool unlikely = j.repeated && j.chance < rules::plain_chance;
-    const bool confirmed = unlikely && saving.t >= rules::least_t && j.evidence > 0.0;
+    const bool confirmed =
+        j.evidence > 0.0 &&
+        (unlikely ? saving.t >= rules::least_t : is_told_without_noise(design, model, j, saving));
     if (j.evidence < rules::least_evidence && !confirmed) return false;
     if (j.evidence < rules::course_evidence && is_course_of_zeros(design, model)) return false;
     if (driver > rules::least_driver * j.floor * design.rows()) return true;
-    if (saving.t < rules::least_t && j.evidence < rules::plain_evidence && !unlikely) return false;
+    if (saving.t < rules::least_t && j.evidence < rules::plain_evidence && !unlikely && !confirmed)
+        return false;
     return j.before - j.after >= rules::least_saving * j.floor;
 }
 
