@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <string>
 
 #include "diagnosis/rules/rules.h"
 #include "estimation/distributions.h"
@@ -12,6 +13,7 @@ namespace {
 
 constexpr double effects_tried = 60.0;
 constexpr double few_blocks = 12.0;    ///< of which a t statistic of 2 is rarely reached (assumed)
+constexpr double least_chance = 0.01;  ///< of all effects together: 98 of 100 nulls are silent
 constexpr double least_freedom = 5.0;  ///< of what is left
 
 using Features = std::set<Eigen::Index>;
@@ -33,6 +35,15 @@ FreeFit free_fit(const Design& design, const Features& features) {
             static_cast<double>(features.size()) - static_cast<double>(fit.null_space.size())};
 }
 
+/// Effects that these readings can show.
+double effects_seen(const Design& design) {
+    std::set<std::string> names;
+    for (const auto& entry : design.groups())
+        if (entry.group.kind == GroupKind::textbook && entry.visible())
+            names.insert(entry.group.name);
+    return static_cast<double>(names.size());
+}
+
 /// Chance of what causes explain beside free zeros, by what both leave.
 double chance_beside_zeros(const Design& design, const Model& model) {
     Features zeros, all;
@@ -48,7 +59,7 @@ double chance_beside_zeros(const Design& design, const Model& model) {
     const double rest = std::max(1e-12 * whole, whole - with.explained) / freedom;
     if (rest <= 0.0) return 1.0;
     const double f = std::max(0.0, with.explained - without.explained) / width / rest;
-    return std::min(1.0, effects_tried * estimation::f_tail(f, width, freedom));
+    return std::min(1.0, effects_seen(design) * estimation::f_tail(f, width, freedom));
 }
 
 }  // namespace
@@ -70,7 +81,7 @@ double chance_of(const Design& design, const Model& model, const NoiseModel& noi
 bool is_told_without_noise(const Design& design, const Model& model, const Judgement& j,
                            const Saving& saving) {
     if (j.repeated || (saving.t < rules::least_t && saving.blocks > few_blocks)) return false;
-    return chance_beside_zeros(design, model) < rules::plain_chance;
+    return chance_beside_zeros(design, model) < least_chance;
 }
 
 }  // namespace trunnion::diagnosis
