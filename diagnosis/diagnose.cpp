@@ -165,7 +165,7 @@ bool corrected(Prepared& p, Searched& s, Round& round) {
     // Noise that nobody states may be far below what is usual of the device.
     const bool assumed = round.noise.model.source == NoiseSource::assumed;
     const double least = assumed ? std::min(1.0, s.model.variances.nu) : 1.0;
-    const Eigen::VectorXd digit = last_digit(p.rounding_mm).cwiseQuotient(p.base.sigma_mm);
+    const Eigen::VectorXd digit = last_digit(p.rounding_mm, p.base.sigma_mm);
     const auto wild = wild_readings(
         {sizes.remainder.head(left.size()) / least, digit, devices_of(p.replay)}, round.used);
     if (!wild.empty()) {

@@ -56,7 +56,7 @@ Eigen::VectorXd beside(const records::ReadingTable& table, const emulator::Repla
 /// themselves put them there.
 std::vector<bool> not_spoiled(const Separate& held, const records::ReadingTable& table) {
     const Eigen::VectorXd digit =
-        last_digit(identification::rounding(table, held.replay)).cwiseQuotient(held.sigma_mm);
+        last_digit(identification::rounding(table, held.replay), held.sigma_mm);
     Eigen::VectorXd before = held.before_mm, after = held.after_mm;
     free_medians(held.zeros, before);
     free_medians(held.zeros, after);

@@ -17,7 +17,8 @@ constexpr std::size_t least_places = 8;
 constexpr double least_turns = 2.0, most_hole = 0.4, least_spacings = 2.0, least_outside = 0.2;
 /// Of a spike: one that does not decay on the way between two readings is a backlash.
 constexpr double least_other = 0.01;
-constexpr double same_cycles = 0.1;  ///< two ripples are alike that part by less over all positions
+/// Two ripples are alike that part by less over all positions (assumed).
+constexpr double same_cycles = 0.1;
 /// Keys with the same values that are listed. A step of 20 m reaches it; a wild coordinate of
 /// 1e9 mm would have some 1e9 of them.
 constexpr std::size_t most_aliases = 10'000;
@@ -107,7 +108,8 @@ double frequency_on_grid(double step, double period) {
 }
 
 /// Keys of the catalogue with the same values as the ripple on a grid of this step, longest period
-/// first: any period m / step +- 1 / period, or a number of periods in a turn. `range` of the grid.
+/// first: any period m / step +- 1 / period, or a number of periods in a turn. `range`: from
+/// the first position to the last, mm or rad as the step.
 std::vector<double> aliases_on(double step, double range, const Ripple& ripple) {
     std::vector<double> list;
     const auto [least, most] = std::minmax_element(ripple.offered.begin(), ripple.offered.end());

@@ -111,15 +111,14 @@ std::vector<std::size_t> lone_probe_readings(const Prepared& prepared,
                                              const std::vector<bool>& used) {
     std::vector<bool> kept = used;
     std::vector<std::size_t> lone;
-    const Eigen::ArrayXd digit =
-        last_digit(prepared.rounding_mm).array() / prepared.base.sigma_mm.array();
+    const Eigen::ArrayXd digit = last_digit(prepared.rounding_mm, prepared.base.sigma_mm);
     const auto is_probe_row = [&](std::size_t i) {
         const records::Device device = prepared.replay.contact(i).device;
         return device == records::Device::sphere || device == records::Device::touch;
     };
     for (int pass = 0; pass < 40; ++pass) {
         const Eigen::ArrayXd all = studentised(prepared.base, kept).cwiseAbs();
-        const Eigen::ArrayXd z = (all - digit).max(0.0);
+        const Eigen::ArrayXd z = all - digit;
         std::vector<double> size;
         double worst = 0.0;
         for (std::size_t i = 0; i < kept.size(); ++i) {
@@ -143,8 +142,8 @@ std::vector<std::size_t> lone_probe_readings(const Prepared& prepared,
     return keep ? std::vector<std::size_t>{} : lone;
 }
 
-Eigen::VectorXd last_digit(const Eigen::VectorXd& rounding_mm) {
-    return std::sqrt(12.0) * rounding_mm;
+Eigen::VectorXd last_digit(const Eigen::VectorXd& rounding_mm, const Eigen::VectorXd& sigma_mm) {
+    return std::sqrt(12.0) * rounding_mm.cwiseQuotient(sigma_mm);
 }
 
 std::vector<std::size_t> wild_readings(const NoisyResiduals& rows, const std::vector<bool>& used) {

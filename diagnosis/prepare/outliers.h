@@ -15,13 +15,13 @@ std::vector<records::Device> devices_of(const emulator::Replay& replay);
 std::vector<std::size_t> lone_probe_readings(const Prepared& prepared,
                                              const std::vector<bool>& used);
 
-/// One count of the last digit of each row, from the deviation of its rounding, mm or rad. No
-/// reading is spoiled that is off by less: of a display coarser than the noise nearly all values
-/// agree, and the others show the next digit.
-Eigen::VectorXd last_digit(const Eigen::VectorXd& rounding_mm);
+/// One count of the last digit of each row, in its sigma; both arguments are in mm or rad,
+/// `rounding_mm` is the deviation by that digit (identification/resolution.h), 0 without one. A
+/// reading is spoiled only if it is off by a digit more: of a display coarser than the noise nearly
+/// all values agree, and the others show the next digit.
+Eigen::VectorXd last_digit(const Eigen::VectorXd& rounding_mm, const Eigen::VectorXd& sigma_mm);
 
-/// Residuals of rows with the devices, divided by the noise, and one digit of them in the same
-/// unit.
+/// Residuals of rows and one digit of each, both divided by its noise, and the devices.
 struct NoisyResiduals {
     Eigen::VectorXd left, digit;
     std::vector<records::Device> devices;

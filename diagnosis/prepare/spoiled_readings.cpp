@@ -78,8 +78,7 @@ DoubtfulReadings doubtful_readings(const Prepared& prepared, const LinearModel& 
     DoubtfulReadings doubtful;
     doubtful.usual = std::max(prepared.base.noise_given ? least_scale : least_assumed,
                               estimation::robust_deviation(std::move(size)));
-    const Eigen::ArrayXd digit =
-        last_digit(prepared.rounding_mm).array() / prepared.base.sigma_mm.array();
+    const Eigen::VectorXd digit = last_digit(prepared.rounding_mm, prepared.base.sigma_mm);
     for (const std::size_t i : rows) {
         const auto at = static_cast<Eigen::Index>(i);
         const double own = left(at);

@@ -58,7 +58,7 @@ bool are_neighbours(const std::vector<std::size_t>& rows) {
 std::vector<std::size_t> unrepeated_readings(const Prepared& p, const std::vector<bool>& used) {
     if (p.cycle.empty()) return {};
     const RepeatedRows rows{p.replay, p.table, p.blocks, used, p.cycle, p.rounding_mm};
-    const Eigen::VectorXd digit_mm = last_digit(p.rounding_mm);
+    const Eigen::VectorXd digit = last_digit(p.rounding_mm, p.base.sigma_mm);
     std::vector<std::size_t> spoiled;
     for (auto& [device, list] :
          differences_of(rows, compared_rows(p.blocks, used), p.base.residual_mm, p.base.sigma_mm)) {
@@ -69,9 +69,9 @@ std::vector<std::size_t> unrepeated_readings(const Prepared& p, const std::vecto
             std::vector<double> values;
             double most_digit = 0.0;
             for (const Eigen::Index row : place) {
-                const double noise_mm = told.deviation * p.base.sigma_mm(row);
-                values.push_back((p.base.residual_mm(row) - told.zero_mm(row)) / noise_mm);
-                most_digit = std::max(most_digit, digit_mm(row) / noise_mm);
+                values.push_back((p.base.residual_mm(row) - told.zero_mm(row)) /
+                                 (told.deviation * p.base.sigma_mm(row)));
+                most_digit = std::max(most_digit, digit(row) / told.deviation);
             }
             for (const std::size_t k : refuted_of(values, most_digit))
                 spoiled.push_back(static_cast<std::size_t>(place[k]));

@@ -30,14 +30,17 @@ constexpr double course_evidence =
     9.0;  ///< ... for a course of time over tests whose zeros scatter
 constexpr double plain_evidence = 15.0;  ///< ... above which left-out blocks need not agree
 constexpr double plain_chance = 1e-3;    ///< ... or below this chance, where repeats tell the noise
-constexpr double least_t = 2.0;          ///< t statistic of the loss saved on left-out blocks
-constexpr double least_saving = 0.02;    ///< of the noise variance
-constexpr double least_driver = 0.08;    ///< of the noise variance: a single driver establishes a
-                                         ///< gap
-constexpr double large_zero = 1.0;       ///< rms of a zero, in sigma, above which it is part of the
-                                         ///< gap
-constexpr double large_cycle = 3.0;  ///< ... of the cycles of a laser test: its few zeros wander
-                                     ///< with the air and the frame, and are known well
+constexpr double free_chance = 0.01;   ///< ... or below this one, by what the members leave, where
+                                       ///< nothing repeats (assumed)
+constexpr double few_blocks = 12.0;    ///< left out: of so few a t of 2 is rarely reached (assumed)
+constexpr double least_t = 2.0;        ///< t statistic of the loss saved on left-out blocks
+constexpr double least_saving = 0.02;  ///< of the noise variance
+constexpr double least_driver = 0.08;  ///< of the noise variance: a single driver establishes a
+                                       ///< gap
+constexpr double large_zero = 1.0;     ///< rms of a zero, in sigma, above which it is part of the
+                                       ///< gap
+constexpr double large_cycle = 3.0;    ///< ... of the cycles of a laser test: its few zeros wander
+                                       ///< with the air and the frame, and are known well
 
 constexpr double explained = 0.8, partly = 0.5;  ///< of H
 constexpr double least_told = 0.5;  ///< of H: shares of all causes below it contradict it (assumed)

@@ -11,10 +11,8 @@
 namespace trunnion::diagnosis {
 namespace {
 
-constexpr double effects_tried = 60.0;
-constexpr double few_blocks = 12.0;    ///< of which a t statistic of 2 is rarely reached (assumed)
-constexpr double least_chance = 0.01;  ///< of all effects together: 98 of 100 nulls are silent
-constexpr double least_freedom = 5.0;  ///< of what is left
+constexpr double effects_tried = 60.0;  ///< on a five-axis machine (assumed)
+constexpr double least_freedom = 5.0;   ///< of what is left
 
 using Features = std::set<Eigen::Index>;
 
@@ -44,7 +42,8 @@ double effects_seen(const Design& design) {
     return static_cast<double>(names.size());
 }
 
-/// Chance of what causes explain beside free zeros, by what both leave.
+/// Chance of what the members explain beside free zeros, by what both leave, for as many effects as
+/// there are. 1 where too little is left to tell the noise.
 double chance_beside_zeros(const Design& design, const Model& model) {
     Features zeros, all;
     for (const auto& entry : design.groups())
@@ -80,8 +79,9 @@ double chance_of(const Design& design, const Model& model, const NoiseModel& noi
 
 bool is_told_without_noise(const Design& design, const Model& model, const Judgement& j,
                            const Saving& saving) {
-    if (j.repeated || (saving.t < rules::least_t && saving.blocks > few_blocks)) return false;
-    return chance_beside_zeros(design, model) < least_chance;
+    if (j.repeated || (saving.t < rules::least_t && saving.blocks > rules::few_blocks))
+        return false;
+    return chance_beside_zeros(design, model) < rules::free_chance;
 }
 
 }  // namespace trunnion::diagnosis

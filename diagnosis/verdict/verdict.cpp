@@ -180,7 +180,8 @@ bool is_course_of_zeros(const Design& design, const Model& model) {
 }
 
 /// True when there is more than noise. Without a driver the evidence must be confirmed by left-out
-/// readings, unless repeats tell the noise and it is far too small for what was found.
+/// readings, unless the noise that repeats tell is far too small for what was found, or blocks are
+/// few and noise of no size gives it.
 bool is_gap(Design& design, const Model& model, const Judgement& j, const Sizes& sizes,
             const Saving& saving) {
     if (std::any_of(j.large.begin(), j.large.end(), [](bool b) { return b; })) return true;
