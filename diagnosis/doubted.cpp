@@ -5,6 +5,7 @@
 #include "diagnosis/bent_sight.h"
 #include "diagnosis/measured_surface.h"
 #include "diagnosis/one_feed.h"
+#include "diagnosis/plays_of_passes.h"
 #include "diagnosis/rounded_forms.h"
 #include "diagnosis/rules/rules.h"
 #include "diagnosis/search/solution.h"
@@ -90,6 +91,7 @@ void doubt_look_alikes(const Outcome& found, std::vector<Claim>& claims) {
     doubt_bent_sight(found, claims);
     doubt_contour_at_one_feed(found, claims);
     doubt_rounded_forms(found, claims);
+    doubt_plays_of_passes(found, claims);
 }
 
 void tell_look_alikes(const Outcome& found, std::vector<Cause>& causes) {

@@ -1,10 +1,12 @@
 #include "diagnosis/written_candidates.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "diagnosis/measured_places.h"
 #include "diagnosis/rules/rules.h"
+#include "diagnosis/search/left_out.h"
 
 namespace trunnion::diagnosis {
 namespace {
@@ -114,14 +116,16 @@ std::vector<bool> predicting_elsewhere(const Outcome& f, const Folds& paths) {
 
 }  // namespace
 
-Model without_enormous(const Outcome& f, Model model) {
+namespace {
+
+Model without_enormous(const Outcome& f, const SearchSetting& setting, Model model) {
     const std::vector<double> found = usual_sizes(f.design, f.model);
     const auto was_enormous = [&](std::size_t group) {
         const std::size_t at = position_of(f, group);
         return at < found.size() && found[at] > rules::enormous;
     };
     for (bool again = true; again;) {
-        model = tuned(f.design, f.setting, std::move(model), 2);
+        model = tuned(f.design, setting, std::move(model), 2);
         const std::vector<double> sizes = usual_sizes(f.design, model);
         again = false;
         for (std::size_t k = model.members.size(); k-- > 0;) {
@@ -133,6 +137,35 @@ Model without_enormous(const Outcome& f, Model model) {
         }
     }
     return model;
+}
+
+/// True where rows that nothing taken out moves answer to what is kept: of another axis, perhaps.
+bool has_rows_of_its_own(const Outcome& f, const Model& kept) {
+    std::vector<std::size_t> own, out;
+    for (const std::size_t m : f.model.members) {
+        const bool stays = std::count(kept.members.begin(), kept.members.end(), m) > 0;
+        if (is_cause(f.design.group(m).kind)) (stays ? own : out).push_back(m);
+    }
+    const std::vector<bool> moved = moved_rows(f.design, own), others = moved_rows(f.design, out);
+    for (std::size_t i = 0; i < moved.size(); ++i)
+        if (moved[i] && !others[i]) return true;
+    return false;
+}
+
+/// The setting with the noise that was found: what is taken out on purpose is no noise, which would
+/// make all that is kept smaller.
+SearchSetting with_found_noise(const Outcome& f) {
+    constexpr double spread = 1e-3;
+    SearchSetting setting = f.setting;
+    setting.noise.log_mean = std::log(f.model.variances.nu);
+    setting.noise.spread = spread;
+    return setting;
+}
+
+}  // namespace
+
+Model without_enormous(const Outcome& f, Model model) {
+    return without_enormous(f, f.setting, std::move(model));
 }
 
 namespace {
@@ -176,7 +209,11 @@ std::vector<WrittenCandidate> candidates_of(const Outcome& f, const Folds& paths
                 return c.model.members == model.members;
             }))
             return;
-        if (model.members != f.model.members) model = without_enormous(f, std::move(model));
+        if (model.members != f.model.members) {
+            if (has_rows_of_its_own(f, model))
+                list.push_back({without_enormous(f, with_found_noise(f), model), found});
+            model = without_enormous(f, std::move(model));
+        }
         list.push_back({std::move(model), found});
     };
     for (const TakesMember& takes :

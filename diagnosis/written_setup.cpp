@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include "base/alarm.h"
@@ -9,6 +10,7 @@
 #include "diagnosis/measured_places.h"
 #include "diagnosis/prepare/target_visits.h"
 #include "diagnosis/rules/rules.h"
+#include "diagnosis/search/left_out.h"
 #include "diagnosis/search/solution.h"
 #include "diagnosis/set_up_alone.h"
 #include "diagnosis/written_candidates.h"
@@ -31,12 +33,20 @@ Model without_causes(const Outcome& f) {
     return only(f, f.model, [](GroupKind k, std::size_t) { return k == GroupKind::offset; });
 }
 
+/// Readings that may be left out.
+double rows_of(const Outcome& f, const Folds& folds) {
+    double rows = 0.0;
+    for (std::size_t i = 0; i < f.used.size(); ++i)
+        if (f.used[i] && folds.group[i] >= 0) rows += 1.0;
+    return rows;
+}
+
 /// True when left-out paths deviate from the model by little more than the other paths leave
 /// uncertain of them: what one path alone determines cannot be predicted there, but is not refuted.
 bool as_expected(const Outcome& f, const Model& model, const Folds& paths, double before) {
-    const auto rows = static_cast<double>(std::count(f.used.begin(), f.used.end(), true));
     const double noise = model.variances.nu * model.variances.nu;
-    const double beyond = LeftOut(f.design, model, paths, f.used).surprise() / rows - noise;
+    const double beyond =
+        LeftOut(f.design, model, paths, f.used).surprise() / rows_of(f, paths) - noise;
     return beyond <= (1.0 - rules::explained) * std::max(0.0, before - noise);
 }
 
@@ -66,42 +76,96 @@ Paths paths_of(const Prepared& p) {
     return paths;
 }
 
+/// What is left out on the rows that a candidate can move: others, of another axis perhaps, say
+/// nothing of it.
+struct Judges {
+    Folds blocks;
+    Paths paths;
+    Alone alone;
+};
+
+Alone alone_on(const Outcome& f, const Folds& blocks, const Folds& paths) {
+    const Model none = without_causes(f);
+    const double rank = static_cast<double>(f.design.projection().rank());
+    return {loss_of(f, none, blocks).mean(), loss_on_paths(f, none, paths).mean(),
+            f.judgement.floor * (1.0 + rank / std::max(1.0, f.design.rows()))};
+}
+
+Judges judges_of(const Outcome& f, const Model& model, const Judges& all) {
+    std::vector<std::size_t> causes;
+    for (const std::size_t m : model.members)
+        if (is_cause(f.design.group(m).kind)) causes.push_back(m);
+    Judges own{of_moved_rows(f.design, causes, all.blocks),
+               {of_moved_rows(f.design, causes, all.paths.folds), all.paths.one},
+               all.alone};
+    if (causes.empty() || own.blocks.group == all.blocks.group) return all;
+    own.alone = alone_on(f, own.blocks, own.paths.folds);
+    return own;
+}
+
+/// True where left-out paths save at least half of what the causes of a model do at all readings:
+/// then they are there, however much of the gap has another cause.
+bool does_what_it_says(const Outcome& f, const Model& model, const Judges& by,
+                       const BlockLoss& after) {
+    const Eigen::MatrixXd parts = contributions(f.design, model, fit_of(f.design, model));
+    Eigen::VectorXd causes = Eigen::VectorXd::Zero(parts.rows());
+    for (std::size_t k = 0; k < model.members.size(); ++k)
+        if (is_cause(f.design.group(model.members[k]).kind))
+            causes += parts.col(static_cast<Eigen::Index>(k));
+    const Saving saving = saving_of(loss_on_paths(f, without_causes(f), by.paths.folds), after);
+    return saving.t >= rules::least_t && saving.sum >= rules::between_least * causes.squaredNorm();
+}
+
 /// What was found with tables, and is fitted with or without them, must leave at most half of the
 /// gap on left-out paths, seen on these or within the paths: where the set-up alone misses them by
-/// more than the gap, they say nothing of a gap. Known forms alone do no harm, or are as the model
-/// expects. A table of one path says nothing of others.
-bool holds_elsewhere(const Outcome& f, const Model& model, const Paths& paths, const Alone& alone) {
-    const double after = loss_on_paths(f, model, paths.folds).mean();
+/// more than the gap, they say nothing of a gap. Or it saves there what it does here. Known forms
+/// alone do no harm, or are as the model expects. A table of one path says nothing of others.
+bool holds_elsewhere(const Outcome& f, const Model& model, const Judges& by) {
+    const Alone& alone = by.alone;
+    const BlockLoss left = loss_on_paths(f, model, by.paths.folds);
+    const double after = left.mean();
     // What known forms explain without the tables does not rest on these.
-    const double own = alone.blocks - loss_of(f, model, f.prepared.folds).mean();
+    const double own = alone.blocks - loss_of(f, model, by.blocks).mean();
     const bool known_forms =
         !has_tables(f, model) && own >= rules::explained * (alone.blocks - alone.noise);
     if (has_tables(f, f.model) && !known_forms) {
-        if (paths.one) return false;
+        if (by.paths.one) return false;
         const double gap = std::min(alone.blocks, alone.paths) - alone.noise;
-        return after - alone.noise <= (1.0 - rules::between_least) * std::max(0.0, gap);
+        return after - alone.noise <= (1.0 - rules::between_least) * std::max(0.0, gap) ||
+               does_what_it_says(f, model, by, left);
     }
     // Beside what is missing, a form has an uncertainty that excuses anything.
     return after <= most_harm * alone.paths || (f.judgement.part >= rules::explained &&
-                                                as_expected(f, model, paths.folds, alone.paths));
+                                                as_expected(f, model, by.paths.folds, alone.paths));
+}
+
+/// Three deviations of the readings of each device: no reading counts more. Those of another device
+/// may be of another size altogether.
+std::map<records::Device, double> most_of_devices(const Outcome& f, const Eigen::VectorXd& before) {
+    std::map<records::Device, std::vector<double>> sizes;
+    for (std::size_t i = 0; i < f.used.size(); ++i)
+        if (f.used[i])
+            sizes[f.prepared.replay.contact(i).device].push_back(
+                before(static_cast<Eigen::Index>(i)));
+    std::map<records::Device, double> most;
+    for (auto& [device, size] : sizes)
+        most[device] = 3.0 * std::max(std::sqrt(f.judgement.floor),
+                                      estimation::robust_deviation(std::move(size)));
+    return most;
 }
 
 /// True when a model predicts the typical left-out reading no worse: what helps a few readings that
-/// are far off must not be at the expense of the others. No reading counts more than three
-/// deviations.
+/// are far off must not be at the expense of the others.
 bool is_good_for_most(const Outcome& f, const Eigen::VectorXd& before,
                       const Eigen::VectorXd& after) {
-    std::vector<double> size;
-    for (std::size_t i = 0; i < f.used.size(); ++i)
-        if (f.used[i]) size.push_back(before(static_cast<Eigen::Index>(i)));
-    const double most =
-        3.0 * std::max(std::sqrt(f.judgement.floor), estimation::robust_deviation(std::move(size)));
+    const std::map<records::Device, double> most = most_of_devices(f, before);
     double saved = 0.0;
     for (std::size_t i = 0; i < f.used.size(); ++i) {
         const auto row = static_cast<Eigen::Index>(i);
         if (!f.used[i]) continue;
-        saved += std::pow(std::min(most, std::abs(before(row))), 2) -
-                 std::pow(std::min(most, std::abs(after(row))), 2);
+        const double limit = most.at(f.prepared.replay.contact(i).device);
+        saved += std::pow(std::min(limit, std::abs(before(row))), 2) -
+                 std::pow(std::min(limit, std::abs(after(row))), 2);
     }
     return saved > 0.0;
 }
@@ -114,27 +178,26 @@ bool is_confirmed(const BlockLoss& before, const BlockLoss& loss) {
 
 /// Takes the best candidate on left-out readings that holds on left-out paths, if there is one.
 void choose(const Outcome& f, const Paths& paths, Written& w) {
-    const double rank = static_cast<double>(f.design.projection().rank());
-    const double noise = f.judgement.floor * (1.0 + rank / std::max(1.0, f.design.rows()));
     const BlockLoss before = loss_of(f, w.model, f.prepared.folds);
-    const Alone alone{before.mean(), loss_on_paths(f, w.model, paths.folds).mean(), noise};
+    const Judges all{f.prepared.folds, paths, alone_on(f, f.prepared.folds, paths.folds)};
+    const double noise = all.alone.noise;
     const auto left = [&](const Model& m) {
         return residual_of(f, m, f.prepared.folds, Zeros::all);
     };
     const Eigen::VectorXd alone_left = left(w.model);
-    double least = alone.blocks;
+    double least = before.mean();
     for (auto& [model, found] : candidates_of(f, paths.folds)) {
         const BlockLoss loss = loss_of(f, model, f.prepared.folds);
         if (loss.mean() >= least || !is_confirmed(before, loss)) continue;
         if (!is_good_for_most(f, alone_left, left(model))) continue;
-        if (!holds_elsewhere(f, model, paths, alone)) {
+        if (!holds_elsewhere(f, model, judges_of(f, model, all))) {
             w.only_here = w.only_here || (found && saving_of(before, loss).t >= rules::least_t);
             continue;
         }
         least = loss.mean();
         w.model = std::move(model);
     }
-    if (alone.blocks > noise) w.part = (alone.blocks - least) / (alone.blocks - noise);
+    if (before.mean() > noise) w.part = (before.mean() - least) / (before.mean() - noise);
 }
 
 bool has_causes(const Outcome& f, const Model& model) {

@@ -9,6 +9,7 @@
 #include "base/alarm.h"
 #include "base/rounded.h"
 #include "base/units.h"
+#include "identification/time_constants.h"
 
 namespace trunnion::identification {
 namespace {
@@ -21,8 +22,8 @@ constexpr double absurd_rms_mm = 0.5;
 constexpr double of_an_arm = 10.0;
 constexpr double absurd_rad = 0.03;  ///< of a location error
 constexpr double absurd_zero_rad = 0.5;
-/// Delay of a slow position loop: its following error at speed is large, and plausible.
-constexpr double longest_lag_s = 0.1;
+/// Delay of the slowest position loop: its following error at speed is large, and plausible.
+constexpr double longest_lag_s = most_time_constant_s;
 
 /// Implausible results are refused, or noted when the user declared them as intended.
 void tell_absurd(BaseModel& model, bool meant, const std::string& what, const SourceRef& where) {

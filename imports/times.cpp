@@ -115,18 +115,26 @@ std::string_view take_word(std::string_view& text) {
     return word;
 }
 
-/// The day of "Wed Apr 13 14:00:34 CEST 2022", as `date` of Unix prints it.
-std::optional<double> day_of_unix(std::string_view text) {
+/// The day of a number, the name of a month (three letters count) and a year.
+std::optional<double> named_day(std::string_view of_month, std::string_view name,
+                                std::string_view year) {
     static constexpr std::string_view months = "JanFebMarAprMayJunJulAugSepOctNovDec";
-    take_word(text);
-    const std::size_t month = months.find(take_word(text).substr(0, 3));
-    std::string_view of_month = take_word(text), clock = take_word(text), year = take_word(text);
-    if (const std::string_view last = take_word(text); !last.empty()) year = last;  // after a zone
+    const std::size_t month = months.find(name.substr(0, 3));
     const auto day_number = whole(of_month, 2), year_number = whole(year, 4);
-    if (month >= months.size() || month % 3 != 0 || !take_clock(clock) || !day_number ||
-        !year_number)
-        return std::nullopt;
+    if (month >= months.size() || month % 3 != 0 || !day_number || !year_number) return {};
     return day(*year_number, static_cast<int>(month / 3) + 1, *day_number);
+}
+
+/// The day of "Wed Apr 13 14:00:34 CEST 2022" or "Wed 13 Apr 2022 02:00:34 PM CEST", as `date` of
+/// Unix prints it in one language or another.
+std::optional<double> day_of_unix(std::string_view text) {
+    take_word(text);
+    const std::string_view second = take_word(text), third = take_word(text);
+    std::string_view fourth = take_word(text), fifth = take_word(text);
+    const bool clock_last = !second.empty() && second[0] >= '0' && second[0] <= '9';
+    if (clock_last) return take_clock(fifth) ? named_day(second, third, fourth) : std::nullopt;
+    if (const std::string_view last = take_word(text); !last.empty()) fifth = last;  // after a zone
+    return take_clock(fourth) ? named_day(third, second, fifth) : std::nullopt;
 }
 
 }  // namespace

@@ -32,6 +32,8 @@ constexpr double plain_evidence = 15.0;  ///< ... above which left-out blocks ne
 constexpr double plain_chance = 1e-3;    ///< ... or below this chance, where repeats tell the noise
 constexpr double free_chance = 0.01;   ///< ... or below this one, by what the members leave, where
                                        ///< nothing repeats (assumed)
+constexpr double zeros_chance = 0.01;  ///< that noise makes means of passes differ as much: below
+                                       ///< it each pass has a zero of its own (assumed)
 constexpr double few_blocks = 12.0;    ///< left out: of so few a t of 2 is rarely reached (assumed)
 constexpr double least_t = 2.0;        ///< t statistic of the loss saved on left-out blocks
 constexpr double least_saving = 0.02;  ///< of the noise variance

@@ -104,13 +104,4 @@ class LeftOut {
     std::vector<Fold> fold_;
 };
 
-/// Leaves out whole positions of an axis, never its ends, to test whether a table is valid between
-/// positions.
-Folds place_folds(const emulator::Replay& replay, const TableForm& table);
-
-/// Leaves out all passes over the same path together (any feed and direction), and poses of probes
-/// and targets one by one, to test whether a model is valid on unmeasured paths.
-Folds path_folds(const std::vector<NoiseBlock>& blocks, const emulator::Replay& replay,
-                 const std::vector<Axis>& axes);
-
 }  // namespace trunnion::diagnosis

@@ -10,6 +10,7 @@
 #include "diagnosis/prepare/outliers.h"
 #include "diagnosis/prepare/places.h"
 #include "diagnosis/rules/rules.h"
+#include "diagnosis/search/left_out.h"
 #include "diagnosis/verdict/alike_readings.h"
 #include "diagnosis/verdict/chance.h"
 #include "estimation/distributions.h"
@@ -65,7 +66,9 @@ bool holds_between(Design& design, const Prepared& prepared, const Model& model,
     const bool slide = !group.table.knots.empty() && !group.table.axis.rotary;
     if (slide && place_count(prepared, group.table.axis.axis) < rules::table_places) return false;
     const Model free = with_free_line(design, model, group);
-    const LeftOut left(design, free, place_folds(prepared.replay, group.table), used);
+    const Folds places =
+        of_moved_rows(design, {model.members[position]}, place_folds(prepared.replay, group.table));
+    const LeftOut left(design, free, places, used);
     std::vector<bool> all(free.members.size(), true), rest = all;
     rest[position] = false;
     const BlockLoss with = left.loss_beside_set_up(all, all),

@@ -6,6 +6,7 @@
 
 #include "base/random.h"
 #include "diagnosis/search/heldout.h"
+#include "diagnosis/search/left_out.h"
 #include "tests/support/campaign.h"
 
 namespace trunnion {

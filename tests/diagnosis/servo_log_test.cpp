@@ -334,11 +334,12 @@ records::ReadingTable moves_behind(double time_constant_s, double dead_s, unsign
 
 TEST_CASE("a loop answers to moves with jumps of acceleration by its time constant",
           "[diagnosis][servo]") {
-    const double seconds = GENERATE(0.01, 0.04);
+    const double seconds = GENERATE(0.01, 0.04, 0.1, 0.2);
     const double dead_s = GENERATE(0.0, 0.002);
     const diagnosis::Diagnosis d = diagnosed(machine(), moves_behind(seconds, dead_s, 3));
     INFO(seconds << " s, " << dead_s << " s: " << said(d));
-    CHECK(d.verdict == diagnosis::Verdict::explained);
+    // Orders of a lag that is longer than the moves cancel each other: no claim, but the same size.
+    if (seconds < 0.15) CHECK(d.verdict == diagnosis::Verdict::explained);
     REQUIRE(!d.causes.empty());
     CHECK(d.causes[0].effect == "servo.mismatch");
     CHECK(d.causes[0].parameters[0].value == Approx(seconds + dead_s).epsilon(0.01));

@@ -4,6 +4,7 @@
 
 #include "diagnosis/doubted.h"
 #include "diagnosis/rules/rules.h"
+#include "diagnosis/search/left_out.h"
 #include "diagnosis/search/solution.h"
 #include "diagnosis/written_setup.h"
 #include "tests/support/campaign.h"

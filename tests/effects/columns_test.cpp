@@ -211,9 +211,13 @@ std::vector<double> read_on_mill(const std::string& error, const std::string& in
 
 TEST_CASE("a squareness is the location error of its axis, on a table that moves the other way too",
           "[effects]") {
-    const std::map<std::string, std::string> names{{"EC0Y_rad = 1e-4", "XY.squareness=100urad"},
-                                                   {"EA0Z_rad = 1e-4", "YZ.squareness=100urad"},
-                                                   {"EB0Z_rad = 1e-4", "ZX.squareness=100urad"}};
+    // At 10 mrad the line of the axis is shorter by 50 ppm, 10 um of 200 mm.
+    const double angle_rad = GENERATE(1e-4, 1e-2);
+    std::map<std::string, std::string> names;
+    for (const auto& [error, plane] :
+         {std::pair("EC0Y_rad", "XY"), std::pair("EA0Z_rad", "YZ"), std::pair("EB0Z_rad", "ZX")})
+        names[fmt::format("{} = {}", error, angle_rad)] =
+            fmt::format("{}.squareness={}urad", plane, 1e6 * angle_rad);
     const std::vector<double> ideal = read_on_mill("", "");
     for (const auto& [error, injection] : names) {
         const std::vector<double> declared = read_on_mill(error, ""),

@@ -296,7 +296,8 @@ TEST_CASE("axes with any letter, and positions next to targets", "[imports][dial
 
 TEST_CASE("the date of Unix names the session", "[imports][dialects]") {
     const setup::Setup setup = import_bench::setup();
-    for (const char* date : {"Wed Apr 13 14:00:34 CEST 2022", "Wed Apr 13 14:00:34 2022"})
+    for (const char* date : {"Wed Apr 13 14:00:34 CEST 2022", "Wed Apr 13 14:00:34 2022",
+                             "Wed 13 Apr 2022 02:00:34 PM CEST", "Wed 13 Apr 2022 14:00:34"})
         CHECK(
             import_bench::read_rows(setup, {imports::ImportKind::axis_log,
                                             std::string("* Date        : ") + date +
@@ -304,11 +305,13 @@ TEST_CASE("the date of Unix names the session", "[imports][dialects]") {
                                             {},
                                             ""})[0]
                 .session == "2022-04-13");
-    import_bench::refuses(
-        setup,
-        {imports::ImportKind::axis_log,
-         "Date: Wed Apr 31 14:00:34 2022\ntime [s],X cmd [mm],X act [mm]\n0,1,1\n",
-         {},
-         ""},
-        "is no date", 1);
+    for (const char* date : {"Wed Apr 31 14:00:34 2022", "Wed 31 Apr 2022 02:00:34 PM CEST",
+                             "Wed 13 Avr 2022 02:00:34 PM CEST"})
+        import_bench::refuses(
+            setup,
+            {imports::ImportKind::axis_log,
+             std::string("Date: ") + date + "\ntime [s],X cmd [mm],X act [mm]\n0,1,1\n",
+             {},
+             ""},
+            "is no date", 1);
 }
