@@ -5,6 +5,7 @@
 
 #include "base/units.h"
 #include "diagnosis/groups/few_places.h"
+#include "diagnosis/prepare/places.h"
 #include "estimation/free_form.h"
 
 namespace trunnion::diagnosis {
@@ -42,8 +43,10 @@ bool holds_at_places(const Outcome& f, std::size_t group) {
     if (own.table.knots.empty())
         return holds_at_places_of_turn(f, own) &&
                !is_alias_of_finer(f.design, f.prepared, f.model, position);
+    const std::vector<bool> sees = sees_moves(f.prepared, own.table.axis.axis);
     for (std::size_t i = 0; i < f.prepared.replay.size(); ++i) {
         const emulator::Contact& contact = f.prepared.replay.contact(i);
+        if (!sees[i]) continue;
         if (contact.device != records::Device::linear && contact.device != records::Device::angle &&
             contact.device != records::Device::point)
             return false;

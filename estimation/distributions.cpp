@@ -31,4 +31,10 @@ double student_probability(double value, double freedom) {
     return value < 0.0 ? 0.5 * both : 1.0 - 0.5 * both;
 }
 
+double binomial_tail(double value, double trials, double probability) {
+    if (!(value > 0.0) || !(value <= trials)) return value > trials ? 0.0 : 1.0;  // NaN: 1
+    if (!(probability > 0.0 && probability < 1.0)) return probability >= 1.0 ? 1.0 : 0.0;
+    return boost::math::ibeta(value, trials - value + 1.0, probability);
+}
+
 }  // namespace trunnion::estimation

@@ -11,5 +11,7 @@ double f_tail(double value, double numerator, double denominator);  ///< P(F > v
 double normal_tail(double value);                                   ///< P(Z > value)
 /// P(T < value) of Student's t with `freedom` degrees of freedom.
 double student_probability(double value, double freedom);
+/// P(X >= value) of so many trials, each a success with this probability.
+double binomial_tail(double value, double trials, double probability);
 
 }  // namespace trunnion::estimation

@@ -7,6 +7,7 @@
 
 #include "base/units.h"
 #include "diagnosis/groups/candidate_groups.h"
+#include "diagnosis/prepare/places.h"
 #include "diagnosis/rules/rules.h"
 #include "estimation/free_form.h"
 
@@ -47,10 +48,13 @@ constexpr int last_order_of_sensor = 120;
 constexpr int last_single_order = 9;  ///< the next ones are periods of R.cyclic
 constexpr double soft_orders[] = {4.0, 12.0, 36.0, 108.0};  ///< harmonics decrease beyond these
 
+/// Positions of the axis in readings that see it move; a single one where none does.
 std::vector<double> places_of(const Prepared& p, Axis axis) {
+    const std::vector<bool> sees = sees_moves(p, axis);
     std::vector<double> places;
     for (std::size_t i = 0; i < p.replay.size(); ++i)
-        places.push_back(p.replay.sample(i).position[axis]);
+        if (sees[i]) places.push_back(p.replay.sample(i).position[axis]);
+    if (places.empty()) places.push_back(p.replay.sample(0).position[axis]);
     return places;
 }
 

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 #include <utility>
 
 #include "diagnosis/rules/rules.h"
+#include "estimation/distributions.h"
 #include "estimation/projection.h"
 #include "estimation/quantiles.h"
 
@@ -41,11 +43,11 @@ struct Hit {
 /// The kinds are told apart: probe readings beside many of a ballbar stand close to each other in
 /// the table, however they are spread over the visits.
 std::map<records::Device, Hit> by_device(const std::vector<std::size_t>& rows,
-                                         const std::vector<records::Device>& devices) {
+                                         const std::vector<RowKind>& rows_of) {
     std::map<records::Device, Hit> kinds;
     std::size_t next = 0;
-    for (std::size_t i = 0; i < devices.size(); ++i) {
-        Hit& hit = kinds[devices[i]];
+    for (std::size_t i = 0; i < rows_of.size(); ++i) {
+        Hit& hit = kinds[rows_of[i].device];
         if (next < rows.size() && rows[next] == i) {
             hit.numbers.push_back(hit.all);
             ++next;
@@ -89,10 +91,38 @@ bool crowded(const Hit& hit) {
     return 10 * pairs > 4 * rows.size();
 }
 
-bool crowded(const std::vector<std::size_t>& rows, const std::vector<records::Device>& devices) {
-    const auto kinds = by_device(rows, devices);
-    return std::any_of(kinds.begin(), kinds.end(),
-                       [](const auto& kind) { return crowded(kind.second); });
+/// True when the rows of a device are along one direction more often than by chance: an error of
+/// the machine has a direction, a spoiled reading has none.
+bool are_along_one(const std::vector<std::size_t>& rows, const std::vector<RowKind>& kinds) {
+    constexpr double rare = 1e-3;  // (assumed)
+    struct Counts {
+        std::map<int, double> along;
+        double all = 0.0;
+    };
+    std::map<records::Device, Counts> present, hit;
+    for (const RowKind& kind : kinds) {
+        present[kind.device].along[kind.direction] += 1.0;
+        present[kind.device].all += 1.0;
+    }
+    for (const std::size_t row : rows) {
+        hit[kinds[row].device].along[kinds[row].direction] += 1.0;
+        hit[kinds[row].device].all += 1.0;
+    }
+    for (const auto& [device, hits] : hit)
+        for (const auto& [direction, count] : hits.along) {
+            const Counts& of_device = present.at(device);
+            const double part = of_device.along.at(direction) / of_device.all;
+            const double chance = estimation::binomial_tail(count, hits.all, part);
+            if (chance * static_cast<double>(of_device.along.size()) < rare) return true;
+        }
+    return false;
+}
+
+bool crowded(const std::vector<std::size_t>& rows, const std::vector<RowKind>& kinds) {
+    const auto devices = by_device(rows, kinds);
+    return std::any_of(devices.begin(), devices.end(),
+                       [](const auto& kind) { return crowded(kind.second); }) ||
+           are_along_one(rows, kinds);
 }
 
 bool too_many(std::size_t count, std::size_t all) {
@@ -101,10 +131,18 @@ bool too_many(std::size_t count, std::size_t all) {
 
 }  // namespace
 
-std::vector<records::Device> devices_of(const emulator::Replay& replay) {
-    std::vector<records::Device> devices;
-    for (std::size_t i = 0; i < replay.size(); ++i) devices.push_back(replay.contact(i).device);
-    return devices;
+std::vector<RowKind> kinds_of(const emulator::Replay& replay) {
+    constexpr double along = 0.9;  // cosine
+    std::vector<RowKind> kinds;
+    for (std::size_t i = 0; i < replay.size(); ++i) {
+        const emulator::Contact& contact = replay.contact(i);
+        RowKind kind{contact.device};
+        for (int d = 0; d < 3; ++d)
+            if (std::abs(contact.direction_M(d)) > along)
+                kind.direction = contact.direction_M(d) > 0.0 ? d + 1 : -d - 1;
+        kinds.push_back(kind);
+    }
+    return kinds;
 }
 
 std::vector<std::size_t> lone_probe_readings(const Prepared& prepared,
@@ -138,7 +176,7 @@ std::vector<std::size_t> lone_probe_readings(const Prepared& prepared,
         if (too_many(lone.size(), used.size())) return {};
     }
     std::sort(lone.begin(), lone.end());
-    const bool keep = crowded(lone, devices_of(prepared.replay)) || crowded(lone, prepared.blocks);
+    const bool keep = crowded(lone, kinds_of(prepared.replay)) || crowded(lone, prepared.blocks);
     return keep ? std::vector<std::size_t>{} : lone;
 }
 
@@ -159,7 +197,7 @@ std::vector<std::size_t> wild_readings(const NoisyResiduals& rows, const std::ve
     for (std::size_t i = 0; i < used.size(); ++i)
         if (used[i] && size_of(i) > limit + rows.digit(static_cast<Eigen::Index>(i)))
             wild.push_back(i);
-    const bool keep = too_many(wild.size(), used.size()) || crowded(wild, rows.devices);
+    const bool keep = too_many(wild.size(), used.size()) || crowded(wild, rows.kinds);
     return keep ? std::vector<std::size_t>{} : wild;
 }
 

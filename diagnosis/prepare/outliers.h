@@ -5,13 +5,17 @@
 
 namespace trunnion::diagnosis {
 
-/// The device of each row.
-std::vector<records::Device> devices_of(const emulator::Replay& replay);
+/// What reads a row, and along or about which axis of M it reads.
+struct RowKind {
+    records::Device device = records::Device::none;
+    int direction = 0;  ///< +-1, 2 or 3 of X, Y or Z; 0 between them
+};
+std::vector<RowKind> kinds_of(const emulator::Replay& replay);
 
 /// Probe readings far from a fit of the set-up alone, the worst first, with a new fit each time.
 /// Not for the ballbar, where a single reading at each reversal may be the only sign of a spike.
-/// Returns device rows in ascending order; empty when there are more than 4 % of them or they are
-/// clustered among those of their device.
+/// Returns device rows in ascending order; empty when there are more than 4 % of them, or they are
+/// clustered among those of their device, or along one direction.
 std::vector<std::size_t> lone_probe_readings(const Prepared& prepared,
                                              const std::vector<bool>& used);
 
@@ -21,10 +25,10 @@ std::vector<std::size_t> lone_probe_readings(const Prepared& prepared,
 /// all values agree, and the others show the next digit.
 Eigen::VectorXd last_digit(const Eigen::VectorXd& rounding_mm, const Eigen::VectorXd& sigma_mm);
 
-/// Residuals of rows and one digit of each, both divided by its noise, and the devices.
+/// Residuals of rows and one digit of each, both divided by its noise, and their kinds.
 struct NoisyResiduals {
     Eigen::VectorXd left, digit;
-    std::vector<records::Device> devices;
+    std::vector<RowKind> kinds;
 };
 
 /// Readings of `used` far from the prediction of a model, by the same rule.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <tuple>
+#include <utility>
 
 namespace trunnion::diagnosis {
 namespace {
@@ -35,25 +36,34 @@ Range range_of(const Prepared& p, Axis axis) {
     return range;
 }
 
-std::vector<bool> tells_place(const Prepared& p, Axis axis) {
-    const double least = p.table.names.is_rotary(axis) ? least_response : least_of_response;
-    std::vector<bool> tells(p.replay.size());
+namespace {
+
+/// Takes out rows beside whose zero the axis stands still in all that are marked.
+std::vector<bool> where_it_moves(const Prepared& p, Axis axis, std::vector<bool> marked) {
     std::map<SharedZero, Range> spans;
     for (std::size_t i = 0; i < p.replay.size(); ++i) {
-        const double response = response_of(p, i, axis);
-        tells[i] = response >= least;
-        if (!tells[i]) continue;
+        if (!marked[i]) continue;
         Range& range = spans.try_emplace(shared_of(p, i), Range{HUGE_VAL, -HUGE_VAL}).first->second;
         range.low = std::min(range.low, p.replay.sample(i).position[axis]);
         range.high = std::max(range.high, p.replay.sample(i).position[axis]);
     }
     const double same = same_position * range_of(p, axis).span();
-    for (std::size_t i = 0; i < p.replay.size(); ++i) {
-        if (!tells[i]) continue;
-        const Range& range = spans[shared_of(p, i)];
-        tells[i] = range.span() > same;
-    }
-    return tells;
+    for (std::size_t i = 0; i < p.replay.size(); ++i)
+        marked[i] = marked[i] && spans[shared_of(p, i)].span() > same;
+    return marked;
+}
+
+}  // namespace
+
+std::vector<bool> tells_place(const Prepared& p, Axis axis) {
+    const double least = p.table.names.is_rotary(axis) ? least_response : least_of_response;
+    std::vector<bool> tells(p.replay.size());
+    for (std::size_t i = 0; i < p.replay.size(); ++i) tells[i] = response_of(p, i, axis) >= least;
+    return where_it_moves(p, axis, std::move(tells));
+}
+
+std::vector<bool> sees_moves(const Prepared& p, Axis axis) {
+    return where_it_moves(p, axis, std::vector<bool>(p.replay.size(), true));
 }
 
 std::vector<Place> telling_places(const Prepared& p, Axis axis) {

@@ -28,7 +28,11 @@ struct Place {
 /// this one stands anywhere, and its error is not seen.
 std::vector<bool> tells_place(const Prepared& prepared, Axis axis);
 
-/// The positions of these readings, rising.
+/// True for each device row whose free zero was read with the axis at two positions or more: where
+/// it rests in a test of another axis is no place of its error.
+std::vector<bool> sees_moves(const Prepared& prepared, Axis axis);
+
+/// The positions of the readings that tell, rising.
 std::vector<Place> telling_places(const Prepared& prepared, Axis axis);
 /// The same as positions alone.
 std::vector<double> positions_at(const std::vector<Place>& places);

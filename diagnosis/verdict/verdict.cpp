@@ -219,6 +219,14 @@ double part_beside_zeros(const Design& design, const Model& model, const LeftOut
     return excess > 0.0 ? (before - after) / excess : 0.0;
 }
 
+/// Mean square of left-out readings with the zeros alone, relative to what the other readings leave
+/// open of the set-up: few of them may leave very much.
+double surprise_of(FoldColumns& rows, const std::vector<bool>& zeros, Model model) {
+    for (std::size_t k = zeros.size(); k-- > 0;)
+        if (!zeros[k]) model = without(model, k);
+    return LeftOut(rows, model).surprise() / std::max(1.0, rows.design().rows());
+}
+
 /// Noise that repeats show, relative to what is stated: the largest of the devices; 1 where nothing
 /// is stated or nothing repeats.
 double scatter_of(const Prepared& p, const NoiseModel& noise) {
@@ -271,7 +279,8 @@ Judgement judged(FoldColumns& rows, const Prepared& prepared, const Model& model
         if (bends_at_few_places(design, prepared, model, k)) local[k] = true;
     j.between_places = share_of_tables(sizes, local) <= rules::between_part;
     // More than noise may be whatever nothing that was found predicts: a wandering machine.
-    const bool beyond_noise = std::max(nu2, j.before - j.floor * unknowns) > noise.most;
+    const bool beyond_noise = nu2 > noise.most || (j.before - j.floor * unknowns > noise.most &&
+                                                   surprise_of(rows, zeros, model) > noise.most);
     const bool spoiled = are_spoiled(used);
     j.chance = chance_of(design, model, noise.model, sizes);
     j.repeated = noise.model.source == NoiseSource::repeats;
