@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "choices/gap_notes.h"
-#include "choices/judged_log.h"
+#include "choices/judged_noise.h"
 #include "choices/log_meaning.h"
 #include "choices/trace_of_ends.h"
 
