@@ -30,8 +30,9 @@ class JudgedByRows {
         // What seems to be noise may be what an exact cause does, or depend on the positions.
         Answer exact = judged_at_sigma(asked_, log_);
         if (!is_left(exact.gap)) return exact;
-        if (quiet) return depends(noisy) ? exact : answer;
-        return beside_causes(std::move(answer), noise);
+        if (!quiet) return beside_causes(std::move(answer), noise);
+        exact = beside_causes(std::move(exact), noise);
+        return !is_left(exact.gap) || depends(noisy) ? exact : answer;
     }
 
   private:

@@ -189,9 +189,12 @@ bool is_quiet(const LogOfProgram& log, const ComparedRun& run) {
     for (const double loss : run.losses) worst = std::max(worst, loss);
     const double axes = static_cast<double>(log.view.axes.size()),
                  rows = static_cast<double>(run.losses.size()), freedom = log.view.freedom;
+    // Noise that nobody knows may be anything.
+    const bool known = log.noise == LogNoise::given || std::isfinite(freedom);
     const auto is_chance = [&](double loss, double terms, double cases) {
-        return std::isfinite(freedom) &&
-               cases * estimation::f_tail(loss / terms, terms, freedom) > noise_by_chance;
+        const double p = std::isfinite(freedom) ? estimation::f_tail(loss / terms, terms, freedom)
+                                                : estimation::chi_squared_tail(loss, terms);
+        return known && cases * p > noise_by_chance;
     };
     return (run.loss <= quiet_mean * axes * rows || is_chance(run.loss, axes * rows, 1.0)) &&
            (worst <= axes * quiet_worst * quiet_worst || is_chance(worst, axes, rows));

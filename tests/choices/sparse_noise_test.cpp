@@ -81,7 +81,8 @@ TEST_CASE("noise that nobody states in a log of few rows a block is no gap, and 
         by.noise_mm = 0.002;
         by.shift_mm = 0.006;
         const auto gap = gap_of(mill_of(offset), sampled(program, by), program);
-        INFO("seed " << seed << ", p " << gap.p_value << ", noise " << gap.noise_um << ", rms " << gap.rms_um);
+        INFO("seed " << seed << ", p " << gap.p_value << ", noise " << gap.noise_um << ", rms "
+                     << gap.rms_um);
         CHECK(gap.verdict != GapVerdict::no_gap);
         shifted += !gap.causes.empty() && gap.causes[0].name == "G54" ? 1 : 0;
     }
@@ -103,6 +104,31 @@ TEST_CASE("noise that nobody states in a trace of ends is no gap, and hides no s
               GapVerdict::no_gap);
     }
     CHECK(silent >= tests - 1);
+}
+
+TEST_CASE(
+    "a radius of cutter compensation is no noise of a trace of ends, beside other noise or none") {
+    std::string program =
+        "N10 G21 G90 G17 G54\nN20 G0 X5. Y5. Z30.\nN30 G41 D1 G1 X20. Y20. F600\n";
+    for (int k = 0; k < 12; ++k)
+        program += "X" + std::to_string(30 + 10 * k) + ".\nY" + std::to_string(30 + 5 * k) + ".\n";
+    program += "G40 X5. Y5.\nG0 Z50.\nM30\n";
+    const auto mill = [](double diameter) {
+        return mill_of(std::string(offset) + "tools.1 = { length_mm = 50, diameter_mm = " +
+                       std::to_string(diameter) + " }\n");
+    };
+    for (const double noise_mm : {0.0, 0.0015}) {
+        records::PositionLog log = log_bench::log_of(mill(6.012), program);
+        log.step = 1e-4;
+        SeededNoise random(5);
+        for (records::LoggedPosition& row : log.rows)
+            for (const Axis axis : log.axes)
+                row.at[axis] = 1e-4 * std::round(1e4 * (row.at[axis] + noise_mm * random.normal()));
+        const auto gap = gap_of(mill(6.0), log, program);
+        INFO("noise " << noise_mm << " verdict " << to_string(gap.verdict));
+        REQUIRE(!gap.causes.empty());
+        CHECK(gap.causes[0].name == "D1");
+    }
 }
 
 TEST_CASE("differences that depend on the positions are no noise of a trace of ends") {
