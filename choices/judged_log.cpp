@@ -142,6 +142,11 @@ void tell_causes(const GapQuestion& question, const GapSearch& found, const Comp
     gap.unseen = found.unseen;
 }
 
+/// p of a small excess over the noise that is searched all the same.
+double searched_below(const LogOfProgram& log) {
+    return std::isfinite(log.view.freedom) ? rare : chance;
+}
+
 /// What noise alone might be must be explained wholly and surely.
 bool is_convincing(const ControlGap& gap) {
     const bool whole = gap.verdict == GapVerdict::explained || gap.verdict == GapVerdict::ambiguous;
@@ -170,6 +175,15 @@ void tell_other_readings(const GapQuestion& question, const GapSearch& found,
     if (const std::string meaning = agreeing_columns(by.comparer, question.setup, base.loss);
         !meaning.empty())
         gap.notes.push_back(fmt::format("the log agrees if {}", meaning));
+}
+
+/// Number of blocks with a row whose loss is larger.
+std::size_t blocks_beyond(const ComparedRun& run, const std::vector<int>& blocks,
+                          double row_limit) {
+    std::set<int> out;
+    for (std::size_t row = 0; row < blocks.size(); ++row)
+        if (run.losses[row] > row_limit) out.insert(blocks[row]);
+    return out.size();
 }
 
 }  // namespace
@@ -201,8 +215,7 @@ Answer judged_at_sigma(const Asked& asked, LogOfProgram log) {
         gap.p_value = is_rounding(log.view, base)
                           ? 1.0
                           : std::min(gap.p_value, p_of_shift(log.view, base, blocks, alike));
-    const double searched = std::isfinite(log.view.freedom) ? rare : chance;
-    if (quiet && gap.p_value > searched) {
+    if (quiet && gap.p_value > searched_below(log)) {
         gap.unseen = tell_ranges(comparer, {question.setup, base}, gap.notes);
         return out;
     }
@@ -223,15 +236,13 @@ Answer judged_at_sigma(const Asked& asked, LogOfProgram log) {
                     blocks,   base.loss - (quiet ? found.run.loss : teller.noise_loss()),
                     limit(),  beside_remainder(log, base, found.run, blocks, limit())};
     tell_causes(question, found, base, by, gap);
-    if (quiet && (!is_convincing(gap) || p_of_shift(log.view, found.run, blocks, alike) < searched))
+    if (quiet && (!is_convincing(gap) ||
+                  p_of_shift(log.view, found.run, blocks, alike) < searched_below(log)))
         take_back(question, gap);
     for (std::string& name : tell_ranges(comparer, {found.setup, found.run}, gap.notes))
         gap.unseen.push_back(std::move(name));
     out.reached = found.setup;
-    std::set<int> left;
-    for (std::size_t row = 0; row < blocks.size(); ++row)
-        if (found.run.losses[row] > by.row_limit) left.insert(blocks[row]);
-    out.left = left.size();
+    out.left = blocks_beyond(found.run, blocks, by.row_limit);
     if (is_left(gap)) tell_other_readings(question, found, base, by, gap);
     return out;
 }
