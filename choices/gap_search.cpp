@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "choices/folds.h"
@@ -127,16 +128,17 @@ class Searcher {
         candidates_.push_back(std::move(candidate));
     }
     void add_choices() {
+        const SameWay same(comparer_, found_.setup, found_.run.path);
         for (const Choice& choice : choice_table()) {
             if (choice.holds(found_.setup)) continue;
             setup::Setup other = found_.setup;
             choice.take(other);
-            ControlPath path = comparer_.path(other);
-            if (same_way(path, found_.run.path)) {
+            std::optional<ControlPath> path = same.other(other);
+            if (!path) {
                 unseen_.push_back(choice.name());
                 continue;
             }
-            ComparedRun run = comparer_.compared(std::move(path));
+            ComparedRun run = comparer_.compared(std::move(*path));
             if (run.loss >= found_.run.loss) continue;
             if (choice.rounds && is_rounding(comparer_.log(), found_.run, run.losses)) continue;
             std::vector<double> left_out =

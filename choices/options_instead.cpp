@@ -1,5 +1,6 @@
 #include "choices/options_instead.h"
 
+#include <optional>
 #include <utility>
 
 #include "choices/choice_table.h"
@@ -15,13 +16,14 @@ constexpr int most_refits = 5;  ///< steps of Gauss-Newton, of the stores beside
 std::vector<OptionInstead> options_instead(const RestOfStores& rest) {
     std::vector<OptionInstead> out;
     const ComparedRun own = rest.comparer.run(rest.setup);
+    const SameWay same(rest.comparer, rest.setup, own.path);
     for (const Choice& choice : choice_table()) {
         if (choice.holds(rest.setup)) continue;
         FittedControl control{rest.setup, {}};
         choice.take(control.setup);
-        ControlPath path = rest.comparer.path(control.setup);
-        if (same_way(path, own.path)) continue;
-        control.run = rest.comparer.compared(std::move(path));
+        std::optional<ControlPath> path = same.other(control.setup);
+        if (!path) continue;
+        control.run = rest.comparer.compared(std::move(*path));
         if (control.run.loss >= own.loss) continue;
         for (int k = 0; k < most_refits && improve(rest.comparer, rest.others, control); ++k) {
         }
