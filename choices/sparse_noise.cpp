@@ -114,13 +114,21 @@ double p_of_axis(const LogView& view, const ComparedRun& run, Axis axis,
 std::optional<SparseNoise> sparse_noise(const LogView& view, const ComparedRun& run,
                                         const std::vector<int>& blocks) {
     std::vector<SparseNoise> axes;
+    RowSteps few;  // of axes that have too few
     double most = 0.0;
     for (std::size_t k = 0; k < view.axes.size(); ++k) {
         RowSteps steps = steps_of(view, run, blocks, k, true);
         if (steps.size() < least_steps) steps = steps_of(view, run, blocks, k, false);
-        if (steps.size() < least_steps) continue;
+        if (steps.size() < least_steps) {
+            few.insert(few.end(), steps.begin(), steps.end());
+            continue;
+        }
         axes.push_back(scatter_of(std::move(steps)));
         most = std::max(most, axes.back().sigma);
+    }
+    if (axes.empty() && few.size() >= least_steps) {
+        axes.push_back(scatter_of(std::move(few)));
+        most = axes.back().sigma;
     }
     if (most <= 0.0 || most > most_noise) return std::nullopt;
     SparseNoise out;

@@ -14,9 +14,9 @@ struct SparseNoise {
 };
 
 /// What neighbouring rows scatter about the path: rows of one block, or where blocks have one row,
-/// of neighbour blocks. A difference that is alike in both of them is no noise, and neither are the
-/// few where another one begins. Nothing without enough of them, or where it is more than any
-/// display or drive has.
+/// of neighbour blocks; of all axes together where each has few. A difference that is alike in both
+/// of them is no noise, and neither are the few where another one begins. Nothing without enough of
+/// them, or where it is more than any display or drive has.
 std::optional<SparseNoise> sparse_noise(const LogView& view, const ComparedRun& run,
                                         const std::vector<int>& blocks);
 

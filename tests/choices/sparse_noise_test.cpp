@@ -131,6 +131,18 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("noise that nobody states in a short trace of ends is no gap") {
+    int silent = 0;
+    constexpr int tests = 20;
+    for (int seed = 1; seed <= tests; ++seed) {
+        const std::string program = lines_of(seed, 11);
+        const auto gap =
+            gap_of(mill_of(offset), noisy_ends(program, {1, 0.003, 0.0, seed}), program);
+        silent += gap.verdict == GapVerdict::no_gap ? 1 : 0;
+    }
+    CHECK(silent >= tests - 1);
+}
+
 TEST_CASE("differences that depend on the positions are no noise of a trace of ends") {
     const std::string program = lines_of(3, 40);
     records::PositionLog log = noisy_ends(program, {1, 0.0, 0.0, 1});
