@@ -1,6 +1,8 @@
 // A run of a setup's control compared with a log: path, pairs, and their distances.
 #pragma once
 
+#include <optional>
+
 #include "choices/pairing.h"
 
 namespace trunnion::choices {
@@ -35,6 +37,8 @@ class Comparer {
     ControlPath path(const setup::Setup& setup) const {
         return path_of(setup, program_, programs_, options_);
     }
+    /// With four points a move, however far a curve is from these.
+    ControlPath outline(const setup::Setup& setup) const;
     ComparedRun compared(ControlPath path) const;
     ComparedRun run(const setup::Setup& setup) const { return compared(path(setup)); }
 
@@ -47,6 +51,23 @@ class Comparer {
 
 /// True when the axes move on the same path, within 1e-7 mm and deg.
 bool same_way(const ControlPath& a, const ControlPath& b);
+
+/// Tells which other controls move as this one does. The points of long curves take most of the
+/// time of a run: there outlines are compared, and no more points are asked of a control with the
+/// same.
+class SameWay {
+  public:
+    SameWay(const Comparer& comparer, const setup::Setup& setup, const ControlPath& path);
+    /// The path of another control; nothing if it moves on this one's.
+    std::optional<ControlPath> other(const setup::Setup& setup) const;
+    /// False if its outline is this one's, without a look at more.
+    bool may_differ(const setup::Setup& setup) const;
+
+  private:
+    const Comparer& comparer_;
+    const ControlPath& path_;
+    std::optional<ControlPath> outline_;  ///< only of long curves
+};
 
 double sum_of(const std::vector<double>& values);
 

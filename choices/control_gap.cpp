@@ -1,11 +1,13 @@
 #include "choices/control_gap.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 #include <utility>
 
 #include "choices/gap_notes.h"
-#include "choices/judged_log.h"
+#include "choices/judged_noise.h"
 #include "choices/log_meaning.h"
 #include "choices/trace_of_ends.h"
 
@@ -17,7 +19,9 @@ constexpr double claimed = 0.5;        ///< least probability of a claim
 constexpr std::size_t least_late = 3;  ///< blocks with wrong rows, where numbers are late
 constexpr double contradicts = 0.9;    ///< of the loss: most that stays without the numbers
 constexpr double much_less = 0.5;      ///< of the loss that causes leave, by another reading
-constexpr double other_start = 1.2;    ///< of the loss: most with a start that may be right
+constexpr std::size_t many_rows = 4'000, many_pairs = 50'000'000;
+constexpr double coarse_sigma = 0.005;  ///< mm or deg
+constexpr double other_start = 1.2;     ///< of the loss: most with a start that may be right
 
 }  // namespace
 
@@ -123,6 +127,21 @@ records::PositionLog log_as_meant(const Asked& asked, const setup::Setup& setup)
     return seems_trace(of, asked.comparer(of).run(setup)) ? trace : log;
 }
 
+/// Many samples without numbers beside a path of many points would take minutes: such a path is
+/// made coarser, and the noise is then at least what its chords may be off. Means over many rows
+/// show less than that.
+void coarsen_if_long(const Asked& asked, LogOfProgram& log) {
+    if (log.view.ends || log.view.keys > 0 || log.view.rows.size() < many_rows) return;
+    const std::size_t nodes = asked.comparer(log).path(asked.question.setup).nodes.size();
+    if (log.view.rows.size() * nodes < many_pairs || log.sigma >= coarse_sigma) return;
+    log.least_sigma = coarse_sigma;
+    set_sigma(log, coarse_sigma);
+    log.notes.push_back(fmt::format(
+        "{} rows without numbers of blocks beside a path of {} points: curves are compared to {} "
+        "mm, to end in time; a log with numbers is compared to its own noise",
+        log.view.rows.size(), nodes, log.path.chord_mm));
+}
+
 /// The answer for rows that are what `own` says.
 Answer answered(const Asked& any, const records::PositionLog& own) {
     const GapQuestion meant{any.question.setup, own, any.question.program, any.question.max_blocks,
@@ -134,6 +153,7 @@ Answer answered(const Asked& any, const records::PositionLog& own) {
             own.path +
             ": most rows stand on ends of moves, so all are taken as ends of moves, not as samples "
             "(a column 'motion' tells: G0 to G3 for an end, SAMPLE for a sample)");
+    coarsen_if_long(asked, log);
     const LogOfProgram plain = log;
     settle_meaning(asked.source(meant.setup), log);
     Answer answer = judged_by_numbers(asked, plain, log);

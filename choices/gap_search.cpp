@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "choices/folds.h"
 #include "choices/joint_stores.h"
+#include "choices/options_instead.h"
 #include "choices/passed_stop.h"
 #include "choices/row_fit.h"
 
@@ -104,6 +106,7 @@ class Searcher {
             if (k == 0) found_.unseen = unseen_;
             if (!take_best()) break;
         }
+        weigh_options_instead();
         return std::move(found_);
     }
 
@@ -125,16 +128,17 @@ class Searcher {
         candidates_.push_back(std::move(candidate));
     }
     void add_choices() {
+        const SameWay same(comparer_, found_.setup, found_.run.path);
         for (const Choice& choice : choice_table()) {
             if (choice.holds(found_.setup)) continue;
             setup::Setup other = found_.setup;
             choice.take(other);
-            ControlPath path = comparer_.path(other);
-            if (same_way(path, found_.run.path)) {
+            std::optional<ControlPath> path = same.other(other);
+            if (!path) {
                 unseen_.push_back(choice.name());
                 continue;
             }
-            ComparedRun run = comparer_.compared(std::move(path));
+            ComparedRun run = comparer_.compared(std::move(*path));
             if (run.loss >= found_.run.loss) continue;
             if (choice.rounds && is_rounding(comparer_.log(), found_.run, run.losses)) continue;
             std::vector<double> left_out =
@@ -242,6 +246,46 @@ class Searcher {
             cause.rivals.push_back(store.name);
             cause.others += store.odds;
         }
+    }
+    /// Stores that came in one step were never weighed against options, nor those that came beside
+    /// another one that was replaced since.
+    void weigh_options_instead() {
+        const std::vector<Store> table = store_table(found_.setup, used_);
+        std::size_t count = 0;
+        for (const GapStep& step : found_.steps) count += step.chosen.numbers.size();
+        for (GapStep& step : found_.steps) {
+            if (!step.chosen.store) continue;
+            setup::Setup rest = options_;
+            Numbers others;
+            for (const GapStep& other : found_.steps) {
+                if (&other == &step || !other.chosen.store) continue;
+                other.chosen.take(rest);
+                add_numbers(table, other.chosen.numbers, others);
+            }
+            for (const OptionInstead& option : options_instead({comparer_, rest, others}))
+                weigh_instead(option, score_behind(option.loss, others.size(), count), step);
+        }
+    }
+    static void add_numbers(const std::vector<Store>& table,
+                            const std::vector<FittedNumber>& fitted, Numbers& out) {
+        for (const Store& store : table)
+            for (const StoredNumber& number : store.numbers)
+                if (std::any_of(fitted.begin(), fitted.end(),
+                                [&](const FittedNumber& f) { return f.name == number.name; }))
+                    out.push_back(&number);
+    }
+    /// Of what was found, which has `count` numbers.
+    double score_behind(double loss, std::size_t numbers, std::size_t count) const {
+        const double own = found_.run.loss;
+        const bool equal = std::abs(scorer_.score(loss, 0) - scorer_.score(own, 0)) < equal_score;
+        return equal ? 0.0
+                     : std::max(0.0, scorer_.score(own, count) - scorer_.score(loss, numbers));
+    }
+    static void weigh_instead(const OptionInstead& option, double behind, GapStep& step) {
+        if (std::find(step.rivals.begin(), step.rivals.end(), option.name) != step.rivals.end())
+            return;
+        step.probability = 1.0 / (1.0 / step.probability + std::exp(-behind));
+        if (behind < rival_gap) step.rivals.push_back(option.name);
     }
     GapStep step_of(StoreCause cause) {
         GapStep step;

@@ -30,7 +30,9 @@ constexpr double gap_sigmas = 6.0;  ///< of a row: a gap begins there
 constexpr double explained_from = 0.8;
 constexpr double least_left = 0.005;  ///< of the gap: minimum for a block listed as remaining
 constexpr double chance =
-    1e-6;  ///< p of a small excess over the noise that is searched all the same
+    1e-6;                      ///< p of a small excess over the noise that is searched all the same
+constexpr double rare = 1e-3;  ///< the same where the noise is only known from some rows: what is
+                               ///< searched for nothing is taken back
 constexpr double quite_sure = 0.8;    ///< probability of a cause of such an excess
 constexpr double all_rows = 0.95;     ///< part of the rows that an explanation reaches
 constexpr double surely_more = 1e-9;  ///< p of a mean that no noise has
@@ -69,7 +71,10 @@ void tell_base(const LogOfProgram& log, const ComparedRun& base, const Teller& t
     gap.rms_um = teller.mean_um(base.losses);
     gap.noise_um = teller.noise_um();
     gap.excess_um = std::sqrt(std::max(0.0, gap.rms_um * gap.rms_um - gap.noise_um * gap.noise_um));
-    gap.p_value = estimation::chi_squared_tail(base.loss, teller.noise_loss());
+    const double terms = teller.noise_loss();
+    gap.p_value = std::isfinite(log.view.freedom)
+                      ? estimation::f_tail(base.loss / terms, terms, log.view.freedom)
+                      : estimation::chi_squared_tail(base.loss, terms);
     const double limit = gap_sigmas * gap_sigmas;
     gap.first = teller.first(base, [&](std::size_t row) { return base.losses[row] > limit; });
     gap.worst = teller.worst(base, [](std::size_t) { return true; });
@@ -137,6 +142,11 @@ void tell_causes(const GapQuestion& question, const GapSearch& found, const Comp
     gap.unseen = found.unseen;
 }
 
+/// p of a small excess over the noise that is searched all the same.
+double searched_below(const LogOfProgram& log) {
+    return std::isfinite(log.view.freedom) ? rare : chance;
+}
+
 /// What noise alone might be must be explained wholly and surely.
 bool is_convincing(const ControlGap& gap) {
     const bool whole = gap.verdict == GapVerdict::explained || gap.verdict == GapVerdict::ambiguous;
@@ -167,9 +177,18 @@ void tell_other_readings(const GapQuestion& question, const GapSearch& found,
         gap.notes.push_back(fmt::format("the log agrees if {}", meaning));
 }
 
+/// Number of blocks with a row whose loss is larger.
+std::size_t blocks_beyond(const ComparedRun& run, const std::vector<int>& blocks,
+                          double row_limit) {
+    std::set<int> out;
+    for (std::size_t row = 0; row < blocks.size(); ++row)
+        if (run.losses[row] > row_limit) out.insert(blocks[row]);
+    return out.size();
+}
+
 }  // namespace
 
-Answer judged(const Asked& asked, LogOfProgram log) {
+Answer judged_at_sigma(const Asked& asked, LogOfProgram log) {
     const GapQuestion& question = asked.question;
     // Not Answer{{}, setup}: without memory for the copy, GCC 12 destroys a gap that it never made.
     Answer out;
@@ -196,7 +215,7 @@ Answer judged(const Asked& asked, LogOfProgram log) {
         gap.p_value = is_rounding(log.view, base)
                           ? 1.0
                           : std::min(gap.p_value, p_of_shift(log.view, base, blocks, alike));
-    if (quiet && gap.p_value > chance) {
+    if (quiet && gap.p_value > searched_below(log)) {
         gap.unseen = tell_ranges(comparer, {question.setup, base}, gap.notes);
         return out;
     }
@@ -217,15 +236,13 @@ Answer judged(const Asked& asked, LogOfProgram log) {
                     blocks,   base.loss - (quiet ? found.run.loss : teller.noise_loss()),
                     limit(),  beside_remainder(log, base, found.run, blocks, limit())};
     tell_causes(question, found, base, by, gap);
-    if (quiet && (!is_convincing(gap) || p_of_shift(log.view, found.run, blocks, alike) < chance))
+    if (quiet && (!is_convincing(gap) ||
+                  p_of_shift(log.view, found.run, blocks, alike) < searched_below(log)))
         take_back(question, gap);
     for (std::string& name : tell_ranges(comparer, {found.setup, found.run}, gap.notes))
         gap.unseen.push_back(std::move(name));
     out.reached = found.setup;
-    std::set<int> left;
-    for (std::size_t row = 0; row < blocks.size(); ++row)
-        if (found.run.losses[row] > by.row_limit) left.insert(blocks[row]);
-    out.left = left.size();
+    out.left = blocks_beyond(found.run, blocks, by.row_limit);
     if (is_left(gap)) tell_other_readings(question, found, base, by, gap);
     return out;
 }

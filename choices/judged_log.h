@@ -38,7 +38,7 @@ bool is_left(const ControlGap& gap);
 /// sure as there are blocks with it.
 void add_unknown(ControlGap& gap, std::size_t blocks, GapCause cause);
 
-/// By a search of its own.
-Answer judged(const Asked& asked, LogOfProgram log);
+/// By a search of its own, with the noise that the log has.
+Answer judged_at_sigma(const Asked& asked, LogOfProgram log);
 
 }  // namespace trunnion::choices

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <optional>
 #include <set>
 
 #include "choices/late_numbers.h"
+#include "estimation/distributions.h"
 
 namespace trunnion::choices {
 
@@ -15,6 +17,7 @@ namespace {
 
 constexpr double quiet_mean = 1.5;        ///< mean loss below which there is no gap
 constexpr double quiet_worst = 6.0;       ///< and the largest distance, in sigma
+constexpr double noise_by_chance = 1e-6;  ///< p of what noise does that is not well known
 constexpr double other_meaning = 0.1;     ///< of the loss: most that another reading may leave
 constexpr double other_lateness = 0.05;   ///< the same where no corner shows it
 constexpr std::size_t most_unlogged = 2;  ///< blocks that a control may leave out at the start
@@ -184,9 +187,17 @@ class Meanings {
 bool is_quiet(const LogOfProgram& log, const ComparedRun& run) {
     double worst = 0.0;
     for (const double loss : run.losses) worst = std::max(worst, loss);
-    const double axes = static_cast<double>(log.view.axes.size());
-    return run.loss <= quiet_mean * axes * static_cast<double>(run.losses.size()) &&
-           worst <= axes * quiet_worst * quiet_worst;
+    const double axes = static_cast<double>(log.view.axes.size()),
+                 rows = static_cast<double>(run.losses.size()), freedom = log.view.freedom;
+    // Noise that nobody knows may be anything.
+    const bool known = log.noise == LogNoise::given || std::isfinite(freedom);
+    const auto is_chance = [&](double loss, double terms, double cases) {
+        const double p = std::isfinite(freedom) ? estimation::f_tail(loss / terms, terms, freedom)
+                                                : estimation::chi_squared_tail(loss, terms);
+        return known && cases * p > noise_by_chance;
+    };
+    return (run.loss <= quiet_mean * axes * rows || is_chance(run.loss, axes * rows, 1.0)) &&
+           (worst <= axes * quiet_worst * quiet_worst || is_chance(worst, axes, rows));
 }
 
 LogOfProgram from_machine_zero(LogOfProgram log) {

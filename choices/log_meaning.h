@@ -18,7 +18,8 @@ struct LogSource {
     std::function<ComparedRun(const LogOfProgram&)> run;
 };
 
-/// Nothing beyond noise: mean and largest distance.
+/// Nothing beyond noise: mean and largest distance, or as large ones as a noise has by chance that
+/// is stated, or known from some rows.
 bool is_quiet(const LogOfProgram& log, const ComparedRun& run);
 
 /// Another start of the control: not the first row of a log of samples.

@@ -282,6 +282,11 @@ void set_sigma(LogOfProgram& log, double sigma) {
     log.view.rounding = rounding_of(log);
 }
 
+void set_start(const records::PositionLog& log, LogOfProgram& out) {
+    if (log.ends) return;
+    for (const Axis axis : log.axes) out.path.start[axis] = first_position(log, axis, out.sigma);
+}
+
 LogOfProgram log_of_program(const records::PositionLog& log,
                             const std::vector<interpreter::ProgramText>& texts,
                             std::uint64_t max_blocks) {
@@ -330,9 +335,7 @@ LogOfProgram log_of_program(const records::PositionLog& log,
                             ": every corner is one of the rows, so ends of moves are compared "
                             "exactly");
     }
-    if (!log.ends)
-        for (const Axis axis : log.axes)
-            out.path.start[axis] = first_position(log, axis, out.sigma);
+    set_start(log, out);
     out.path.ends_only = log.ends;
     out.path.chord_mm = chord_of(out.sigma);
     if (out.view.keys == 0)

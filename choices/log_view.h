@@ -42,6 +42,9 @@ LogOfProgram log_of_program(const records::PositionLog& log,
 /// Another uncertainty for all rows, at least that of the printed increment.
 void set_sigma(LogOfProgram& log, double sigma);
 
+/// Where the control stood before the program: where the axes stand first in a log of samples.
+void set_start(const records::PositionLog& log, LogOfProgram& out);
+
 constexpr double least_sigma = 5e-5;         ///< mm or deg: below the resolution of any control
 constexpr double least_sample_sigma = 1e-4;  ///< of samples: because of the chords of curves
 

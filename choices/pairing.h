@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "choices/control_path.h"
@@ -33,6 +34,8 @@ struct LogView {
     double spacing = 0.0;   ///< mm or deg: least distance of samples that is assumed everywhere
     double rounding = 0.0;  ///< mm or deg: half the printed increment if no other noise hides it;
                             ///< an axis at rest has the same one in all its rows
+    double freedom = std::numeric_limits<double>::infinity();  ///< numbers of which the noise is
+                                                               ///< known
     /// Number of a block of the program; -1: not named by the log.
     std::function<int(const PathBlock&)> key_of;
 };

@@ -7,6 +7,12 @@ namespace trunnion::choices {
 
 using offsets::ControlPosition;
 
+namespace {
+
+constexpr double usual_sigmas = 3.0;  ///< of a row: noise does that
+
+}  // namespace
+
 void PassedNodes::measure() {
     strides_ = Strides(log_, space_);
     begin_.assign(path_.nodes.size(), 0);
@@ -31,7 +37,9 @@ ControlPosition PassedNodes::shortened(ControlPosition apart, double by) const {
 
 ControlPosition PassedNodes::missed(std::size_t i, std::size_t k, const Progress& motion) const {
     const ControlPosition apart = off_chord(i, k);
-    if (log_.marked && path_.nodes[k].end) return apart;
+    // A row that only seems to be an end has its noise once, by its own place.
+    if (log_.marked && path_.nodes[k].end)
+        return log_.rows[i].end ? apart : shortened(apart, usual_sigmas / log_.rows[i].weight);
     return shortened(apart, strides_.allowed(i, motion));
 }
 

@@ -6,7 +6,9 @@
 #include <map>
 #include <optional>
 
+#include "choices/own_pairs.h"
 #include "choices/store_columns.h"
+#include "estimation/distributions.h"
 
 namespace trunnion::choices {
 
@@ -15,7 +17,6 @@ namespace {
 constexpr std::size_t most_lags = 20;
 constexpr double least_correlation = 0.05;  ///< of a lag that counts
 constexpr double least_across = 3.0;        ///< across the motion: fewer have no mean
-constexpr double stands = 1e-6;             ///< mm or deg: an axis that does not move
 constexpr std::size_t most_ranges = 300;    ///< blocks, for ranges of them
 
 /// Sum of the differences of an axis, and of what noise does to it, in units of sigma.
@@ -28,33 +29,6 @@ struct AxisSum {
     }
 };
 
-/// The only pair of each row; nullptr where there are several: points that the log left out.
-std::vector<const Pair*> only_pairs(const LogView& view, const ComparedRun& run) {
-    std::vector<const Pair*> out(view.rows.size(), nullptr);
-    std::vector<int> count(view.rows.size(), 0);
-    for (const Pair& pair : run.pairs) {
-        out[pair.row] = &pair;
-        ++count[pair.row];
-    }
-    for (std::size_t row = 0; row < out.size(); ++row)
-        if (count[row] > 1) out[row] = nullptr;
-    return out;
-}
-
-/// What a constant difference of all axes does to a pair: nothing along its segment.
-Eigen::MatrixXd shown_by(const LogView& view, const ComparedRun& run, const Pair& pair) {
-    const auto n = static_cast<Eigen::Index>(view.axes.size());
-    Eigen::MatrixXd out = Eigen::MatrixXd::Identity(n, n);
-    if (!pair.slides) return out;
-    Eigen::VectorXd way(n);
-    for (Eigen::Index k = 0; k < n; ++k) {
-        const Axis axis = view.axes[static_cast<std::size_t>(k)];
-        way[k] = run.path.nodes[pair.node].at[axis] - run.path.nodes[pair.node - 1].at[axis];
-    }
-    if (way.squaredNorm() > 0.0) out -= way * way.transpose() / way.squaredNorm();
-    return out;
-}
-
 Eigen::VectorXd apart_of(const LogView& view, const Pair& pair) {
     Eigen::VectorXd out(static_cast<Eigen::Index>(view.axes.size()));
     for (Eigen::Index k = 0; k < out.size(); ++k)
@@ -62,22 +36,12 @@ Eigen::VectorXd apart_of(const LogView& view, const Pair& pair) {
     return out;
 }
 
-/// First node to which an axis moves. Before, it stands where the first row of the log has it, with
-/// the noise of that row.
-std::size_t first_move(const ControlPath& path, Axis axis) {
-    std::size_t node = 0;
-    while (node < path.nodes.size() &&
-           std::abs(path.nodes[node].at[axis] - path.nodes.front().at[axis]) < stands)
-        ++node;
-    return node;
-}
-
 /// Of each block, in the order of the rows.
 std::vector<AxisSum> sums_of(const LogView& view, const ComparedRun& run,
                              const std::vector<int>& blocks, std::size_t at) {
     const Axis axis = view.axes[at];
     const auto place = static_cast<Eigen::Index>(at);
-    const std::vector<const Pair*> pairs = only_pairs(view, run);
+    const std::vector<const Pair*> pairs = own_pairs(view, run);
     const std::size_t first = first_move(run.path, axis);
     std::vector<AxisSum> out;
     for (std::size_t row = 0; row < pairs.size(); ++row) {
@@ -110,7 +74,7 @@ std::vector<std::optional<Eigen::VectorXd>> scattered(const LogView& view, const
         Eigen::VectorXd apart;
     };
     std::map<int, Sum> sums;
-    const std::vector<const Pair*> pairs = only_pairs(view, run);
+    const std::vector<const Pair*> pairs = own_pairs(view, run);
     std::vector<std::optional<Eigen::VectorXd>> out(pairs.size());
     for (std::size_t row = 0; row < pairs.size(); ++row) {
         if (!pairs[row]) continue;
@@ -171,7 +135,10 @@ double p_of_shift(const LogView& view, const ComparedRun& run, const std::vector
             }
         }
     }
-    return std::min(1.0, ranges * std::erfc(most / std::sqrt(2.0)));
+    const double tail = std::isfinite(view.freedom)
+                            ? estimation::student_probability(-most, view.freedom)
+                            : estimation::normal_tail(most);
+    return std::min(1.0, 2.0 * ranges * tail);
 }
 
 std::vector<double> directions_of(const LogView& view, const ComparedRun& run) {

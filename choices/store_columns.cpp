@@ -129,11 +129,13 @@ std::optional<Column> column_of(const Comparer& comparer, const setup::Setup& se
         if (other_moves != nullptr) *other_moves = true;
         return std::nullopt;
     }
-    const auto path_at = [&](double step) {
-        setup::Setup moved = setup;
-        number.in(moved) += step;
-        return comparer.path(moved);
+    const auto moved = [&](double step) {
+        setup::Setup out = setup;
+        number.in(out) += step;
+        return out;
     };
+    if (!SameWay(comparer, setup, run.path).may_differ(moved(steps[0]))) return std::nullopt;
+    const auto path_at = [&](double step) { return comparer.path(moved(step)); };
     return column_of(comparer, run, path_at, other_moves);
 }
 

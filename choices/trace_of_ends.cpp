@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "choices/row_fit.h"
 #include "choices/space.h"
+#include "choices/sparse_noise.h"
 
 namespace trunnion::choices {
 
@@ -43,7 +45,11 @@ bool seems_trace(const LogOfProgram& log, const ComparedRun& run) {
         first = std::min<std::size_t>(first, pair.node);
         last = std::max<std::size_t>(last, pair.node);
     }
-    const double near = std::max(least_mm, same_sigmas * log.sigma);
+    double sigma = log.sigma;
+    if (log.noise == LogNoise::assumed)
+        if (const auto noise = sparse_noise(view, run, blocks_of(view, run)))
+            sigma = std::max(sigma, noise->sigma);
+    const double near = std::max(least_mm, same_sigmas * sigma);
     std::size_t moving = 0, ends = 0;
     for (std::size_t row = 1; row < at.size(); ++row) {
         if (space.square(view.rows[row].at, view.rows[row - 1].at) <= near * near) continue;
