@@ -91,38 +91,17 @@ bool crowded(const Hit& hit) {
     return 10 * pairs > 4 * rows.size();
 }
 
-/// True when the rows of a device are along one direction more often than by chance: an error of
-/// the machine has a direction, a spoiled reading has none.
-bool are_along_one(const std::vector<std::size_t>& rows, const std::vector<RowKind>& kinds) {
-    constexpr double rare = 1e-3;  // (assumed)
-    struct Counts {
-        std::map<int, double> along;
-        double all = 0.0;
-    };
-    std::map<records::Device, Counts> present, hit;
-    for (const RowKind& kind : kinds) {
-        present[kind.device].along[kind.direction] += 1.0;
-        present[kind.device].all += 1.0;
-    }
-    for (const std::size_t row : rows) {
-        hit[kinds[row].device].along[kinds[row].direction] += 1.0;
-        hit[kinds[row].device].all += 1.0;
-    }
-    for (const auto& [device, hits] : hit)
-        for (const auto& [direction, count] : hits.along) {
-            const Counts& of_device = present.at(device);
-            const double part = of_device.along.at(direction) / of_device.all;
-            const double chance = estimation::binomial_tail(count, hits.all, part);
-            if (chance * static_cast<double>(of_device.along.size()) < rare) return true;
-        }
-    return false;
-}
-
 bool crowded(const std::vector<std::size_t>& rows, const std::vector<RowKind>& kinds) {
     const auto devices = by_device(rows, kinds);
     return std::any_of(devices.begin(), devices.end(),
                        [](const auto& kind) { return crowded(kind.second); }) ||
            are_along_one(rows, kinds);
+}
+
+/// True where each visit of a position is read along several directions.
+bool reads_several_ways(records::Device device) {
+    return device == records::Device::sphere || device == records::Device::touch ||
+           device == records::Device::point;
 }
 
 bool too_many(std::size_t count, std::size_t all) {
@@ -143,6 +122,33 @@ std::vector<RowKind> kinds_of(const emulator::Replay& replay) {
         kinds.push_back(kind);
     }
     return kinds;
+}
+
+bool are_along_one(const std::vector<std::size_t>& rows, const std::vector<RowKind>& kinds) {
+    constexpr double rare = 1e-3;  // (assumed)
+    struct Counts {
+        std::map<int, double> along;
+        double all = 0.0;
+    };
+    std::map<records::Device, Counts> present, hit;
+    for (const RowKind& kind : kinds) {
+        present[kind.device].along[kind.direction] += 1.0;
+        present[kind.device].all += 1.0;
+    }
+    for (const std::size_t row : rows) {
+        hit[kinds[row].device].along[kinds[row].direction] += 1.0;
+        hit[kinds[row].device].all += 1.0;
+    }
+    for (const auto& [device, hits] : hit) {
+        if (!reads_several_ways(device)) continue;
+        for (const auto& [direction, count] : hits.along) {
+            const Counts& of_device = present.at(device);
+            const double part = of_device.along.at(direction) / of_device.all;
+            const double chance = estimation::binomial_tail(count, hits.all, part);
+            if (chance * static_cast<double>(of_device.along.size()) < rare) return true;
+        }
+    }
+    return false;
 }
 
 std::vector<std::size_t> lone_probe_readings(const Prepared& prepared,

@@ -12,6 +12,10 @@ struct RowKind {
 };
 std::vector<RowKind> kinds_of(const emulator::Replay& replay);
 
+/// True when rows of a probe or of points are along one direction more often than by chance: an
+/// error of the machine has a direction, a spoiled reading has none. `rows`: indices in `kinds`.
+bool are_along_one(const std::vector<std::size_t>& rows, const std::vector<RowKind>& kinds);
+
 /// Probe readings far from a fit of the set-up alone, the worst first, with a new fit each time.
 /// Not for the ballbar, where a single reading at each reversal may be the only sign of a spike.
 /// Returns device rows in ascending order; empty when there are more than 4 % of them, or they are

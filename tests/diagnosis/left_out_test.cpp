@@ -1,4 +1,6 @@
 // Left-out residuals against plain fits without the rows.
+#include "diagnosis/search/left_out.h"
+
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <Eigen/QR>
@@ -6,7 +8,6 @@
 
 #include "base/random.h"
 #include "diagnosis/search/heldout.h"
-#include "diagnosis/search/left_out.h"
 #include "tests/support/campaign.h"
 
 namespace trunnion {

@@ -20,6 +20,8 @@ TEST_CASE("distribution tails", "[estimation]") {
     CHECK(estimation::normal_tail(1.959963984540054) == Approx(0.025));
     CHECK(estimation::student_probability(2.131846786326649, 4) == Approx(0.95));
     CHECK(estimation::student_probability(-2.131846786326649, 4) == Approx(0.05));
+    CHECK(estimation::binomial_tail(9, 9, 1.0 / 3.0) == Approx(1.0 / 19683.0));
+    CHECK(estimation::binomial_tail(1, 2, 0.5) == Approx(0.75));
     CHECK(estimation::chi_squared_tail(1e6, 0) == 1.0);
     // A log that agrees to its last digit: nothing left of thousands of terms.
     for (const double left : {1e-300, 1e-12, 1.0, 390.0})
@@ -34,6 +36,9 @@ TEST_CASE("distribution tails", "[estimation]") {
     }
     CHECK(estimation::student_probability(2.0, 0) == 1.0);
     CHECK(estimation::student_probability(-2.0, 0) == 1.0);
+    CHECK(estimation::binomial_tail(3, 2, 0.5) == 0.0);
+    CHECK(estimation::binomial_tail(2, 2, 1.0) == 1.0);
+    CHECK(estimation::binomial_tail(0, 2, 0.5) == 1.0);
     CHECK(estimation::chi_squared_tail(1e9, 3) == 0.0);
     CHECK(estimation::quantile({4, 1, 3, 2}, 0.5) == Approx(2.5));
     CHECK(estimation::robust_deviation({}) == 0.0);
