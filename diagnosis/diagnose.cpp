@@ -167,7 +167,7 @@ bool corrected(Prepared& p, Searched& s, Round& round) {
     const double least = assumed ? std::min(1.0, s.model.variances.nu) : 1.0;
     const Eigen::VectorXd digit = last_digit(p.rounding_mm, p.base.sigma_mm);
     const auto wild = wild_readings(
-        {sizes.remainder.head(left.size()) / least, digit, kinds_of(p.replay)}, round.used);
+        {sizes.remainder.head(left.size()) / least, digit, devices_of(p.replay)}, round.used);
     if (!wild.empty()) {
         leave_out(p, wild, round);
         changed = true;

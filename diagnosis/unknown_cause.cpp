@@ -96,14 +96,17 @@ Cause unknown_cause(const Outcome& f, const Diagnosis& d) {
         places += fmt::format(": it {} ({})", group.text, group.component);
     }
     if (places.empty()) cause.probability = probability_of_unknown(f);
-    if (are_spoiled(f.used) && places.empty()) {
+    if (are_spoiled(f.used, f.prepared.replay) && places.empty()) {
         // Laplace's rule of succession: that many were seen.
         const auto count = static_cast<double>(set_aside(f));
         cause.probability = std::max(cause.probability.value(), (count + 1.0) / (count + 2.0));
+        const bool along_one = are_along_one(f.used, f.prepared.replay);
         cause.what = fmt::format(
-            "{} of {} readings fit nothing and were set aside: they are spoiled, or the machine "
-            "differs there. Take them again",
-            set_aside(f), f.used.size());
+            "{} of {} readings fit nothing and were set aside: {}. Take them again", set_aside(f),
+            f.used.size(),
+            along_one ? "most are along one direction, so the machine differs there rather than "
+                        "that they are spoiled"
+                      : "they are spoiled, or the machine differs there");
     } else if (f.judgement.only_scatter && places.empty()) {
         const auto count = static_cast<double>(f.used.size() - set_aside(f));
         cause.probability = std::max(cause.probability.value(), (count + 1.0) / (count + 2.0));
@@ -139,7 +142,7 @@ Cause unknown_cause(const Outcome& f, const Diagnosis& d) {
 
 bool leaves_something(const Outcome& f, const Diagnosis& d) {
     return d.verdict == Verdict::unexplained || d.verdict == Verdict::partly_explained ||
-           are_spoiled(f.used);
+           are_spoiled(f.used, f.prepared.replay);
 }
 
 std::string set_aside_words(const Outcome& f) {

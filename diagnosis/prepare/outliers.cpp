@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
 #include <utility>
 
@@ -43,11 +42,11 @@ struct Hit {
 /// The kinds are told apart: probe readings beside many of a ballbar stand close to each other in
 /// the table, however they are spread over the visits.
 std::map<records::Device, Hit> by_device(const std::vector<std::size_t>& rows,
-                                         const std::vector<RowKind>& rows_of) {
+                                         const std::vector<records::Device>& devices) {
     std::map<records::Device, Hit> kinds;
     std::size_t next = 0;
-    for (std::size_t i = 0; i < rows_of.size(); ++i) {
-        Hit& hit = kinds[rows_of[i].device];
+    for (std::size_t i = 0; i < devices.size(); ++i) {
+        Hit& hit = kinds[devices[i]];
         if (next < rows.size() && rows[next] == i) {
             hit.numbers.push_back(hit.all);
             ++next;
@@ -91,11 +90,10 @@ bool crowded(const Hit& hit) {
     return 10 * pairs > 4 * rows.size();
 }
 
-bool crowded(const std::vector<std::size_t>& rows, const std::vector<RowKind>& kinds) {
-    const auto devices = by_device(rows, kinds);
-    return std::any_of(devices.begin(), devices.end(),
-                       [](const auto& kind) { return crowded(kind.second); }) ||
-           are_along_one(rows, kinds);
+bool crowded(const std::vector<std::size_t>& rows, const std::vector<records::Device>& devices) {
+    const auto kinds = by_device(rows, devices);
+    return std::any_of(kinds.begin(), kinds.end(),
+                       [](const auto& kind) { return crowded(kind.second); });
 }
 
 /// True where each visit of a position is read along several directions.
@@ -104,51 +102,31 @@ bool reads_several_ways(records::Device device) {
            device == records::Device::point;
 }
 
+/// +-1, 2 or 3 of a reading along X, Y or Z of M; 0 between them.
+int direction_of(const emulator::Contact& contact) {
+    constexpr double along = 0.9;  // cosine
+    for (int d = 0; d < 3; ++d)
+        if (std::abs(contact.direction_M(d)) > along)
+            return contact.direction_M(d) > 0.0 ? d + 1 : -d - 1;
+    return 0;
+}
+
+/// Readings of one device along each direction.
+struct Counts {
+    std::map<int, double> along;
+    double all = 0.0;
+};
+
 bool too_many(std::size_t count, std::size_t all) {
     return static_cast<double>(count) > rules::most_outliers * static_cast<double>(all);
 }
 
 }  // namespace
 
-std::vector<RowKind> kinds_of(const emulator::Replay& replay) {
-    constexpr double along = 0.9;  // cosine
-    std::vector<RowKind> kinds;
-    for (std::size_t i = 0; i < replay.size(); ++i) {
-        const emulator::Contact& contact = replay.contact(i);
-        RowKind kind{contact.device};
-        for (int d = 0; d < 3; ++d)
-            if (std::abs(contact.direction_M(d)) > along)
-                kind.direction = contact.direction_M(d) > 0.0 ? d + 1 : -d - 1;
-        kinds.push_back(kind);
-    }
-    return kinds;
-}
-
-bool are_along_one(const std::vector<std::size_t>& rows, const std::vector<RowKind>& kinds) {
-    constexpr double rare = 1e-3;  // (assumed)
-    struct Counts {
-        std::map<int, double> along;
-        double all = 0.0;
-    };
-    std::map<records::Device, Counts> present, hit;
-    for (const RowKind& kind : kinds) {
-        present[kind.device].along[kind.direction] += 1.0;
-        present[kind.device].all += 1.0;
-    }
-    for (const std::size_t row : rows) {
-        hit[kinds[row].device].along[kinds[row].direction] += 1.0;
-        hit[kinds[row].device].all += 1.0;
-    }
-    for (const auto& [device, hits] : hit) {
-        if (!reads_several_ways(device)) continue;
-        for (const auto& [direction, count] : hits.along) {
-            const Counts& of_device = present.at(device);
-            const double part = of_device.along.at(direction) / of_device.all;
-            const double chance = estimation::binomial_tail(count, hits.all, part);
-            if (chance * static_cast<double>(of_device.along.size()) < rare) return true;
-        }
-    }
-    return false;
+std::vector<records::Device> devices_of(const emulator::Replay& replay) {
+    std::vector<records::Device> devices;
+    for (std::size_t i = 0; i < replay.size(); ++i) devices.push_back(replay.contact(i).device);
+    return devices;
 }
 
 std::vector<std::size_t> lone_probe_readings(const Prepared& prepared,
@@ -182,7 +160,7 @@ std::vector<std::size_t> lone_probe_readings(const Prepared& prepared,
         if (too_many(lone.size(), used.size())) return {};
     }
     std::sort(lone.begin(), lone.end());
-    const bool keep = crowded(lone, kinds_of(prepared.replay)) || crowded(lone, prepared.blocks);
+    const bool keep = crowded(lone, devices_of(prepared.replay)) || crowded(lone, prepared.blocks);
     return keep ? std::vector<std::size_t>{} : lone;
 }
 
@@ -203,7 +181,7 @@ std::vector<std::size_t> wild_readings(const NoisyResiduals& rows, const std::ve
     for (std::size_t i = 0; i < used.size(); ++i)
         if (used[i] && size_of(i) > limit + rows.digit(static_cast<Eigen::Index>(i)))
             wild.push_back(i);
-    const bool keep = too_many(wild.size(), used.size()) || crowded(wild, rows.kinds);
+    const bool keep = too_many(wild.size(), used.size()) || crowded(wild, rows.devices);
     return keep ? std::vector<std::size_t>{} : wild;
 }
 
@@ -212,6 +190,35 @@ bool are_spoiled(const std::vector<bool>& used) {
     const double expected = rules::most_outliers * static_cast<double>(used.size());
     const auto count = static_cast<double>(std::count(used.begin(), used.end(), false));
     return count > expected + deviations * std::sqrt(expected);
+}
+
+bool are_along_one(const std::vector<bool>& used, const emulator::Replay& replay) {
+    constexpr double rare = 1e-3;  // (assumed)
+    std::map<records::Device, Counts> present, aside;
+    for (std::size_t i = 0; i < used.size(); ++i) {
+        const emulator::Contact& contact = replay.contact(i);
+        if (!reads_several_ways(contact.device)) continue;
+        const int direction = direction_of(contact);
+        for (auto* counts : {&present, &aside}) {
+            if (counts == &aside && used[i]) continue;
+            (*counts)[contact.device].along[direction] += 1.0;
+            (*counts)[contact.device].all += 1.0;
+        }
+    }
+    for (const auto& [device, hits] : aside)
+        for (const auto& [direction, count] : hits.along) {
+            const Counts& all = present.at(device);
+            const double part = all.along.at(direction) / all.all;
+            if (estimation::binomial_tail(count, hits.all, part) *
+                    static_cast<double>(all.along.size()) <
+                rare)
+                return true;
+        }
+    return false;
+}
+
+bool are_spoiled(const std::vector<bool>& used, const emulator::Replay& replay) {
+    return are_spoiled(used) || are_along_one(used, replay);
 }
 
 }  // namespace trunnion::diagnosis

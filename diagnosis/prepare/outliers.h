@@ -5,21 +5,13 @@
 
 namespace trunnion::diagnosis {
 
-/// What reads a row, and along or about which axis of M it reads.
-struct RowKind {
-    records::Device device = records::Device::none;
-    int direction = 0;  ///< +-1, 2 or 3 of X, Y or Z; 0 between them
-};
-std::vector<RowKind> kinds_of(const emulator::Replay& replay);
-
-/// True when rows of a probe or of points are along one direction more often than by chance: an
-/// error of the machine has a direction, a spoiled reading has none. `rows`: indices in `kinds`.
-bool are_along_one(const std::vector<std::size_t>& rows, const std::vector<RowKind>& kinds);
+/// The device of each row.
+std::vector<records::Device> devices_of(const emulator::Replay& replay);
 
 /// Probe readings far from a fit of the set-up alone, the worst first, with a new fit each time.
 /// Not for the ballbar, where a single reading at each reversal may be the only sign of a spike.
-/// Returns device rows in ascending order; empty when there are more than 4 % of them, or they are
-/// clustered among those of their device, or along one direction.
+/// Returns device rows in ascending order; empty when there are more than 4 % of them or they are
+/// clustered among those of their device.
 std::vector<std::size_t> lone_probe_readings(const Prepared& prepared,
                                              const std::vector<bool>& used);
 
@@ -29,10 +21,10 @@ std::vector<std::size_t> lone_probe_readings(const Prepared& prepared,
 /// all values agree, and the others show the next digit.
 Eigen::VectorXd last_digit(const Eigen::VectorXd& rounding_mm, const Eigen::VectorXd& sigma_mm);
 
-/// Residuals of rows and one digit of each, both divided by its noise, and their kinds.
+/// Residuals of rows and one digit of each, both divided by its noise, and the devices.
 struct NoisyResiduals {
     Eigen::VectorXd left, digit;
-    std::vector<RowKind> kinds;
+    std::vector<records::Device> devices;
 };
 
 /// Readings of `used` far from the prediction of a model, by the same rule.
@@ -41,5 +33,11 @@ std::vector<std::size_t> wild_readings(const NoisyResiduals& rows, const std::ve
 /// True for more spoiled readings than an instrument has (4 %), beyond chance: of 60 readings more
 /// than five, of 2,000 more than 97. Then there is a gap of some kind.
 bool are_spoiled(const std::vector<bool>& used);
+/// True where those readings of a probe, a tracker or a CMM that were set aside are along one
+/// direction more often than by chance: an error of the machine has a direction, a spoiled reading
+/// has none.
+bool are_along_one(const std::vector<bool>& used, const emulator::Replay& replay);
+/// Either of both.
+bool are_spoiled(const std::vector<bool>& used, const emulator::Replay& replay);
 
 }  // namespace trunnion::diagnosis

@@ -95,8 +95,7 @@ DoubtfulReadings doubtful_readings(const Prepared& prepared, const LinearModel& 
                all = static_cast<double>(std::count(used.begin(), used.end(), true));
     const bool few = count <= rules::most_outliers * all;
     if (doubtful.rows.empty() || (few && all > many_readings) ||
-        count > rules::most_doubtful * all || follow_one_another(replay, doubtful.rows) ||
-        are_along_one(doubtful.rows, kinds_of(replay)))
+        count > rules::most_doubtful * all || follow_one_another(replay, doubtful.rows))
         return {};
     return doubtful;
 }

@@ -30,9 +30,9 @@ struct DoubtfulReadings {
     std::size_t visits = 0, all_visits = 0;  ///< of a position: those of `rows`, and all
 };
 /// Readings far from a fit of `model` that they cannot influence (estimation/trimmed_fit.h), where
-/// they are at most 20 % of `used`, of more than 1,000 readings more than 4 %, and neither side
-/// by side in time nor along one direction. Only of devices whose readings are taken one by one: a
-/// ballbar or a servo log is one course.
+/// they are at most 20 % of `used`, of more than 1,000 readings more than 4 %, and not side by side
+/// in time. Only of devices whose readings are taken one by one: a ballbar or a servo log is one
+/// course.
 DoubtfulReadings doubtful_readings(const Prepared& prepared, const LinearModel& model,
                                    const std::vector<bool>& used);
 

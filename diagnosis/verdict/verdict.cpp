@@ -281,7 +281,7 @@ Judgement judged(FoldColumns& rows, const Prepared& prepared, const Model& model
     // More than noise may be whatever nothing that was found predicts: a wandering machine.
     const bool beyond_noise = nu2 > noise.most || (j.before - j.floor * unknowns > noise.most &&
                                                    surprise_of(rows, zeros, model) > noise.most);
-    const bool spoiled = are_spoiled(used);
+    const bool spoiled = are_spoiled(used, prepared.replay);
     j.chance = chance_of(design, model, noise.model, sizes);
     j.repeated = noise.model.source == NoiseSource::repeats;
     j.gap = spoiled || beyond_noise || is_gap(design, model, j, sizes, saving_of(before, after));

@@ -36,7 +36,7 @@ TEST_CASE("few poses leave much of the set-up open, which is no gap", "[diagnosi
     CHECK(loud <= 1);
 }
 
-TEST_CASE("readings along one direction are not set aside as spoiled", "[diagnosis][judged]") {
+TEST_CASE("readings set aside along one direction are a gap", "[diagnosis][judged]") {
     const setup::Setup setup = campaign::bc_setup();
     const bool along_one = GENERATE(false, true);
     records::ReadingTable table = map_of(setup, 80, 3);

@@ -54,11 +54,11 @@ TEST_CASE("few and scattered readings are wild, many or neighbours are an effect
     Eigen::VectorXd quiet(rows);
     for (double& v : quiet) v = std::clamp(random.normal(), -3.0, 3.0);
     std::vector<bool> used(rows, true);
-    std::vector<diagnosis::RowKind> kinds(rows, {records::Device::ballbar, 0});
+    std::vector<records::Device> devices(rows, records::Device::ballbar);
     const auto wild = [&](int first, int step, int count) {
         Eigen::VectorXd left = quiet;
         for (int k = 0; k < count; ++k) left(first + k * step) = k % 2 ? 12.0 : -12.0;
-        return diagnosis::wild_readings({left, Eigen::VectorXd::Zero(left.size()), kinds}, used);
+        return diagnosis::wild_readings({left, Eigen::VectorXd::Zero(left.size()), devices}, used);
     };
     CHECK(wild(0, 1, 0).empty());
     CHECK(wild(20, 100, 3) == std::vector<std::size_t>{20, 120, 220});
@@ -68,7 +68,7 @@ TEST_CASE("few and scattered readings are wild, many or neighbours are an effect
     CHECK(wild(100, 1, 8).size() == 8);    // too few to be told from chance
     // A tenth of the table is of a probe: its readings count among themselves.
     CHECK(wild(2, 4, 10).empty());
-    std::fill_n(kinds.begin(), 40, diagnosis::RowKind{records::Device::sphere, 0});
+    std::fill_n(devices.begin(), 40, records::Device::sphere);
     CHECK(wild(2, 4, 10).size() == 10);
     CHECK(wild(2, 1, 10).empty());
     used[120] = false;
