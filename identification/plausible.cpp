@@ -9,7 +9,6 @@
 #include "base/alarm.h"
 #include "base/rounded.h"
 #include "base/units.h"
-#include "identification/time_constants.h"
 
 namespace trunnion::identification {
 namespace {
@@ -23,7 +22,7 @@ constexpr double of_an_arm = 10.0;
 constexpr double absurd_rad = 0.03;  ///< of a location error
 constexpr double absurd_zero_rad = 0.5;
 /// Delay of the slowest position loop: its following error at speed is large, and plausible.
-constexpr double longest_lag_s = most_time_constant_s;
+constexpr double longest_lag_s = 0.25;
 
 /// Implausible results are refused, or noted when the user declared them as intended.
 void tell_absurd(BaseModel& model, bool meant, const std::string& what, const SourceRef& where) {

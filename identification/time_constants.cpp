@@ -18,7 +18,7 @@ constexpr std::size_t least_rows = 30;
 constexpr std::size_t most_rows = 20000;  ///< of an axis: so many tell it well
 constexpr double least_gain = 5.0;        ///< nats
 constexpr double least_saving = 0.05;     ///< part of the squares
-constexpr int grid = 33;                  ///< steps of a quarter
+constexpr int grid = 30;                  ///< steps of a quarter
 constexpr double golden = 0.6180339887498949;
 
 /// Rows of one axis in a log.

@@ -10,7 +10,7 @@ namespace trunnion::identification {
 
 /// Seconds: from the least that a log could show to the longest of a drive (a heavy table without
 /// feed-forward; assumed).
-inline constexpr double least_time_constant_s = 2e-4, most_time_constant_s = 0.5;
+inline constexpr double least_time_constant_s = 2e-4, most_time_constant_s = 0.25;
 
 /// The setup with `time_constant_s` of every axis whose servo log (30 rows or more) tells one. It
 /// is that behind which velocity, acceleration and jerk explain the log best (least squares,

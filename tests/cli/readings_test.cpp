@@ -204,8 +204,8 @@ TEST_CASE("the lag of a servo is no wrong unit, a jump at rest is") {
             text += fmt::format("{},{},log,axis,X,{},0,0,0,0,{}\n", k, phase,
                                 500.0 * std::sin(phase), -10.0 * std::cos(phase));
         }
-        return bench.write("log.csv", text + fmt::format("400,5,rest,axis,X,0,0,0,0,0,{}\n"
-                                                         "401,6,rest,axis,X,0,0,0,0,0,0\n",
+        return bench.write("log.csv", text + fmt::format("400,8,rest,axis,X,0,0,0,0,0,{}\n"
+                                                         "401,9,rest,axis,X,0,0,0,0,0,0\n",
                                                          jump_mm));
     };
     CHECK(bench.trunnion("identify " + log(0.0) + " --setup " + setup) == 0);

@@ -41,15 +41,15 @@ TEST_CASE("linear axes: scale, straightness, angles, ripple, squareness move the
                                return tip((2e-3 * std::cos(a) + 1e-3 * std::sin(a)) * along);
                            }) < 1e-6);
     }
-    const double lean = 40e-6;
+    const double lean = std::sin(40e-6), shorter = std::cos(40e-6) - 1.0;
     CHECK(physics.miss("XY.squareness=40urad", [&](const Seen& s) {
-        return tip({-lean * s.at.y(), 0.0, 0.0});  // Y turned about Z leans to -X
+        return tip({-lean * s.at.y(), shorter * s.at.y(), 0.0});  // Y turned about Z leans to -X
     }) < 1e-6);
     CHECK(physics.miss("YZ.squareness=40urad", [&](const Seen& s) {
-        return tip({0.0, -lean * s.at.z(), 0.0});  // Z turned about X leans to -Y
+        return tip({0.0, -lean * s.at.z(), shorter * s.at.z()});  // Z turned about X leans to -Y
     }) < 1e-6);
     CHECK(physics.miss("ZX.squareness=40urad", [&](const Seen& s) {
-        return tip({lean * s.at.z(), 0.0, 0.0});  // Z turned about Y leans to +X
+        return tip({lean * s.at.z(), 0.0, shorter * s.at.z()});  // Z turned about Y leans to +X
     }) < 1e-6);
 }
 
