@@ -19,8 +19,10 @@ constexpr double claimed = 0.5;        ///< least probability of a claim
 constexpr std::size_t least_late = 3;  ///< blocks with wrong rows, where numbers are late
 constexpr double contradicts = 0.9;    ///< of the loss: most that stays without the numbers
 constexpr double much_less = 0.5;      ///< of the loss that causes leave, by another reading
+/// Rows of a log, and their pairs with the points of a path, that take minutes without numbers
+/// (assumed).
 constexpr std::size_t many_rows = 4'000, many_pairs = 50'000'000;
-constexpr double coarse_sigma = 0.005;  ///< mm or deg
+constexpr double coarse_sigma = 0.005;  ///< mm or deg (assumed)
 constexpr double other_start = 1.2;     ///< of the loss: most with a start that may be right
 
 }  // namespace

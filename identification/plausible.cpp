@@ -21,7 +21,8 @@ constexpr double absurd_rms_mm = 0.5;
 constexpr double of_an_arm = 10.0;
 constexpr double absurd_rad = 0.03;  ///< of a location error
 constexpr double absurd_zero_rad = 0.5;
-/// Delay of the slowest position loop: its following error at speed is large, and plausible.
+/// Delay of the slowest position loop: its following error at speed is large, and plausible
+/// (assumed).
 constexpr double longest_lag_s = 0.25;
 
 /// Implausible results are refused, or noted when the user declared them as intended.
