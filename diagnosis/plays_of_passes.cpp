@@ -22,24 +22,22 @@ struct Pass {
     double information = 0.0;  ///< 1 / variance of the mean by the noise of the readings
 };
 
-/// True where a row begins a pass: in a test of its own, after a turn, or at the start again.
-bool begins_pass(const Prepared& p, std::size_t row, Axis axis) {
-    if (row == 0) return true;
-    const std::size_t before = row - 1;
+bool begins_test(const Prepared& p, std::size_t row) {
     const auto test = [&](std::size_t i) -> const std::string& {
         return p.table.rows[p.replay.table_row(i)].test;
     };
-    const double travel = p.replay.sample(row).travel[index_of(axis)];
-    double step = p.replay.sample(row).position[axis] - p.replay.sample(before).position[axis];
-    if (is_rotary(axis)) step = std::remainder(step, 2.0 * pi);
-    return test(row) != test(before) || p.replay.session(row) != p.replay.session(before) ||
-           travel != p.replay.sample(before).travel[index_of(axis)] || step * travel < 0.0;
+    return row == 0 || p.replay.session(row) != p.replay.session(row - 1) ||
+           test(row) != test(row - 1);
 }
 
-bool begins_test(const Prepared& p, std::size_t row) {
-    return row == 0 || p.replay.session(row) != p.replay.session(row - 1) ||
-           p.table.rows[p.replay.table_row(row)].test !=
-               p.table.rows[p.replay.table_row(row - 1)].test;
+/// True where a row begins a pass: in a test of its own, after a turn, or at the start again.
+bool begins_pass(const Prepared& p, std::size_t row, Axis axis) {
+    if (begins_test(p, row)) return true;
+    const AxisSample &own = p.replay.sample(row), &before = p.replay.sample(row - 1);
+    const int travel = own.travel[index_of(axis)];
+    double step = own.position[axis] - before.position[axis];
+    if (is_rotary(axis)) step = std::remainder(step, 2.0 * pi);
+    return travel != before.travel[index_of(axis)] || step * travel < 0.0;
 }
 
 /// The passes of an axis, from the whitened columns of the claim and of the readings.
