@@ -22,8 +22,33 @@ void close_turn(BeyondCommand& beyond) {
     beyond.too_far.push_back(beyond.too_far.front());
 }
 
-/// Adds another one at the places of both.
-void add(BeyondCommand& beyond, const BeyondCommand& other) {
+bool is_whole_turn(const BeyondCommand& beyond) {
+    constexpr double near = 1e-6;
+    return beyond.rotary && std::abs(beyond.at.back() - beyond.at.front() - 2.0 * pi) < near;
+}
+
+/// The same of a turn within another range.
+BeyondCommand within(const BeyondCommand& turn, double least, double most) {
+    BeyondCommand part = turn;
+    part.at = {least, most};
+    for (const double q : turn.at)
+        for (double k = std::floor((least - q) / (2.0 * pi)); q + k * 2.0 * pi < most; ++k)
+            if (q + k * 2.0 * pi > least) part.at.push_back(q + k * 2.0 * pi);
+    std::sort(part.at.begin(), part.at.end());
+    part.too_far.clear();
+    for (const double q : part.at) {
+        const double turns = std::floor((q - turn.at.front()) / (2.0 * pi));
+        part.too_far.push_back(turn(q - turns * 2.0 * pi));
+    }
+    return part;
+}
+
+/// Adds another one at the places of both; beside part of a turn, a whole one within that part.
+void add(BeyondCommand& beyond, BeyondCommand other) {
+    if (is_whole_turn(beyond) && !is_whole_turn(other))
+        beyond = within(beyond, other.at.front(), other.at.back());
+    else if (is_whole_turn(other) && !is_whole_turn(beyond))
+        other = within(other, beyond.at.front(), beyond.at.back());
     std::vector<double> at;
     std::merge(beyond.at.begin(), beyond.at.end(), other.at.begin(), other.at.end(),
                std::back_inserter(at));
@@ -94,7 +119,8 @@ void add_others(const effects::Catalogue& catalogue, std::vector<Cause>& causes,
         else if (!add(first.beyond, catalogue, other))
             continue;
         if (form) other.beyond = {};
-        first.includes += (first.includes.empty() ? "" : ", ") + other.effect;
+        if (first.includes.find(other.effect) == std::string::npos)
+            first.includes += (first.includes.empty() ? "" : ", ") + other.effect;
     }
 }
 

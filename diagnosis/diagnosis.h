@@ -106,7 +106,8 @@ struct Diagnosis {
     std::vector<std::string> set_up_words;         ///< poses of instruments and zeros of encoders
     std::vector<identification::FoundSide> sides;  ///< likewise: what the table leaves open
     HeldOut after;
-    bool writes_causes = true;  ///< false: none of the causes stands in `setup`
+    bool writes_causes = true;            ///< false: none of the causes stands in `setup`
+    std::vector<std::string> background;  ///< small errors that `setup` has beside the causes
     std::vector<NextMeasurement> next;
     std::vector<std::string> unseen;  ///< effects that these readings do not determine
     std::vector<identification::Inseparable>

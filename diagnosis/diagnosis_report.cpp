@@ -266,7 +266,7 @@ Judgement as_written(const Outcome& f, const Written& written,
     judgement.beside_zeros = std::min(judgement.beside_zeros, written.part);
     if (holdout)
         judgement.part = judgement.beside_zeros =
-            std::min(judgement.part, measured_part(f, written.setup, *holdout));
+            std::min(judgement.part, confirmed_part(f, written, *holdout));
     return judgement;
 }
 
@@ -352,6 +352,7 @@ Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options) {
     d.between_places = f.judgement.between_places;
     if (std::max(f.judgement.part, f.judgement.beside_zeros) <= 0.0) written = written_setup(f);
     d.setup = written.setup;
+    d.background = written.background;
     d.writes_causes = std::any_of(written.model.members.begin(), written.model.members.end(),
                                   [&](std::size_t m) { return is_cause(f.design.group(m).kind); });
     describe_set_up(f, solution, d);

@@ -14,15 +14,19 @@
 namespace trunnion::diagnosis {
 namespace {
 
+bool has_period(const ColumnGroup& group) {
+    return group.kind == GroupKind::periodic && group.effect->kind == effects::EffectKind::cyclic;
+}
+
 /// True where a ripple is more likely than the claim, which is the ripple found or another cause.
 /// A claim whose nearest rivals hold between places as well is unsure of its name, not of that.
 bool is_improbable_ripple(const Outcome& f, const Claim& claim) {
     if (claim.probability >= rules::claimed || !f.judgement.interpolates[claim.position])
         return false;
-    if (f.design.group(f.model.members[claim.position]).kind == GroupKind::periodic) return true;
+    if (has_period(f.design.group(f.model.members[claim.position]))) return true;
     if (claim.rival_groups.empty() || claim.share < rules::between_part) return false;
     const Design::Entry& nearest = f.design.groups()[claim.rival_groups.front()];
-    return nearest.only_rival && nearest.group.kind == GroupKind::periodic;
+    return nearest.only_rival && has_period(nearest.group);
 }
 
 /// Probability that a claim is there, or a rival that does the same at these readings: which of the

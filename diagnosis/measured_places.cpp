@@ -37,8 +37,9 @@ bool holds_at_places_of_turn(const Outcome& f, const ColumnGroup& own) {
 bool holds_at_places(const Outcome& f, std::size_t group) {
     const ColumnGroup& own = f.design.group(group);
     const auto at = std::find(f.model.members.begin(), f.model.members.end(), group);
+    if (own.kind != GroupKind::table || at == f.model.members.end()) return false;
     const auto position = static_cast<std::size_t>(at - f.model.members.begin());
-    if (own.kind != GroupKind::table || f.judgement.interpolates[position]) return false;
+    if (f.judgement.interpolates[position]) return false;
     // Harmonics are written for all angles: those that may be the alias of finer ones are not.
     if (own.table.knots.empty())
         return holds_at_places_of_turn(f, own) &&

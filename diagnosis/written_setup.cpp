@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/alarm.h"
+#include "diagnosis/background.h"
 #include "diagnosis/doubted.h"
 #include "diagnosis/measured_places.h"
 #include "diagnosis/prepare/target_visits.h"
@@ -178,13 +179,13 @@ bool is_confirmed(const BlockLoss& before, const BlockLoss& loss) {
 
 /// Takes the best candidate on left-out readings that holds on left-out paths, if there is one.
 void choose(const Outcome& f, const Paths& paths, Written& w) {
-    const BlockLoss before = loss_of(f, w.model, f.prepared.folds);
+    const BlockLoss before = loss_of(f, w.causes, f.prepared.folds);
     const Judges all{f.prepared.folds, paths, alone_on(f, f.prepared.folds, paths.folds)};
     const double noise = all.alone.noise;
     const auto left = [&](const Model& m) {
         return residual_of(f, m, f.prepared.folds, Zeros::all);
     };
-    const Eigen::VectorXd alone_left = left(w.model);
+    const Eigen::VectorXd alone_left = left(w.causes);
     double least = before.mean();
     for (auto& [model, found] : candidates_of(f, paths.folds)) {
         const BlockLoss loss = loss_of(f, model, f.prepared.folds);
@@ -195,7 +196,7 @@ void choose(const Outcome& f, const Paths& paths, Written& w) {
             continue;
         }
         least = loss.mean();
-        w.model = std::move(model);
+        w.causes = std::move(model);
     }
     if (before.mean() > noise) w.part = (before.mean() - least) / (before.mean() - noise);
 }
@@ -203,6 +204,20 @@ void choose(const Outcome& f, const Paths& paths, Written& w) {
 bool has_causes(const Outcome& f, const Model& model) {
     return std::any_of(model.members.begin(), model.members.end(),
                        [&](std::size_t m) { return is_cause(f.design.group(m).kind); });
+}
+
+/// The causes with small errors of all axes, where these help left-out blocks and do not harm
+/// left-out paths; else the causes alone.
+Model beside_small_errors(const Outcome& f, const Paths& paths, const Model& causes) {
+    if (paths.one || !has_causes(f, causes)) return causes;
+    Model whole = with_background(f, causes);
+    if (whole.members.size() == causes.members.size()) return causes;
+    const Folds& blocks = f.prepared.folds;
+    const Saving saving = saving_of(loss_of(f, causes, blocks), loss_of(f, whole, blocks));
+    const Saving elsewhere =
+        saving_of(loss_on_paths(f, causes, paths.folds), loss_on_paths(f, whole, paths.folds));
+    const bool helps = saving.t >= rules::background_t && elsewhere.t >= -rules::background_t;
+    return helps ? whole : causes;
 }
 
 setup::Setup setup_of(const Outcome& f, const Model& model) {
@@ -266,14 +281,16 @@ bool has_changes(const Outcome& f, const Model& model) {
 /// The setup of the written model, and what it leaves of left-out readings.
 void write_out(const Outcome& f, const Paths& paths, Written& w) {
     const Model none = without_causes(f);
+    w.model = beside_small_errors(f, paths, w.causes);
     w.setup = setup_of(f, w.model);
     const bool causes = has_causes(f, w.model) && !has_changes(f, w.model);
     if (causes) w.setup = read_again(f, w.model, std::move(w.setup));
     if (causes && !holds_when_read(f, w.model, w.setup)) {
-        w.model = none;
+        w.causes = w.model = none;
         w.part = 0.0;
         w.setup = set_up_alone(f);
     }
+    w.background = names_beside(f.design, w.model, w.causes);
     w.blocks = {f.judgement.left_before, residual_of(f, w.model, f.prepared.folds)};
     w.paths = {residual_of(f, none, paths.folds), residual_of(f, w.model, paths.folds)};
 }
@@ -303,15 +320,15 @@ std::optional<Model> instead_of_member(const Outcome& f, const Model& model, std
 
 Written written_setup(const Outcome& f) {
     Written w;
-    w.model = {{}, {{}, f.model.variances.nu}, 0.0};
+    w.causes = w.model = {{}, {{}, f.model.variances.nu}, 0.0};
     if (f.judgement.gap && std::max(f.judgement.part, f.judgement.beside_zeros) > 0.0) {
         const Paths paths = paths_of(f.prepared);
-        w.model = without_causes(f);
+        w.causes = without_causes(f);
         choose(f, paths, w);
         // A cause is no more likely than this part: rather not there, it is not written. Where the
         // rest holds at the measured places only, the part without it says nothing of a cause.
         if (w.part < rules::partly && f.judgement.between_places && !w.only_here)
-            w.model = without_causes(f);
+            w.causes = without_causes(f);
         write_out(f, paths, w);
     } else {
         w.setup = set_up_alone(f);
@@ -321,8 +338,20 @@ Written written_setup(const Outcome& f) {
     return w;
 }
 
+double confirmed_part(const Outcome& f, const Written& written,
+                      const records::ReadingTable& holdout) {
+    const double part = measured_part(f, written.setup, holdout);
+    const bool has_all = std::all_of(f.model.members.begin(), f.model.members.end(), [&](auto m) {
+        return !is_cause(f.design.group(m).kind) ||
+               std::count(written.model.members.begin(), written.model.members.end(), m) > 0;
+    });
+    if (has_all) return part;
+    const setup::Setup all = setup_with(f.prepared, f.design, f.model, solved(f.design, f.model));
+    return std::max(part, measured_part(f, all, holdout));
+}
+
 Written without_unlikely(const Outcome& f, Written written, const std::vector<Claim>& claims) {
-    Model model = written.model;
+    Model model = written.causes;
     for (const std::size_t position : unlikely_of(claims)) {
         const std::size_t group = f.model.members[position];
         const auto at = std::find(model.members.begin(), model.members.end(), group);
@@ -337,8 +366,8 @@ Written without_unlikely(const Outcome& f, Written written, const std::vector<Cl
         if (is_missed(*rest)) rest = instead_of_member(f, model, position);
         if (rest && !is_missed(*rest)) model = std::move(*rest);
     }
-    if (model.members == written.model.members) return written;
-    written.model = std::move(model);
+    if (model.members == written.causes.members) return written;
+    written.causes = std::move(model);
     write_out(f, paths_of(f.prepared), written);
     return written;
 }

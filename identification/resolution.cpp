@@ -47,10 +47,13 @@ void add_numbers(const records::Reading& row, const emulator::Contact& contact,
 }  // namespace
 
 double decimal_step(const std::vector<double>& values) {
+    constexpr std::size_t least = 5, many = 20;
     std::vector<double> moved;
     for (const double v : values)
         if (v != 0.0) moved.push_back(v);
-    if (moved.size() < 5) return 0.0;
+    // A display that shows zero most of the time has digits as well: no other one does so.
+    const bool mostly_zero = values.size() >= many && 2 * moved.size() < values.size();
+    if (moved.empty() || (moved.size() < least && !mostly_zero)) return 0.0;
     for (double steps = 1.0; steps < 2e6; steps *= 10.0) {
         const auto on = std::count_if(moved.begin(), moved.end(),
                                       [&](double v) { return is_multiple(v, steps); });

@@ -166,6 +166,7 @@ std::string diagnosis_json(const diagnosis::Diagnosis& d, const std::vector<File
                                           {"stated_um", a.stated_um},
                                           {"added_um", a.added_um}});
     if (d.stated_um) json["gap"]["stated_noise_um"] = *d.stated_um;
+    if (!d.background.empty()) json["after"]["background"] = d.background;
     if (d.after.set_aside > 0) json["after"]["set_aside"] = d.after.set_aside;
     if (!d.sessions.empty()) json["over"] = over_of(d);
     if (d.copies > 0) json["copies"] = d.copies;

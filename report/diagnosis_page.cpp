@@ -305,7 +305,10 @@ std::string causes_section(const diagnosis::Diagnosis& d) {
                        d.writes_causes ? ""
                                        : "The written setup has none of the causes: none of them "
                                          "helps on readings elsewhere. ",
-                       percent(d.after.shrink), interval_words(d.after, " %"))));
+                       percent(d.after.shrink), interval_words(d.after, " %"))) +
+                   (d.background.empty()
+                        ? ""
+                        : paragraph_html(escape_xml(upper_first(background_words(d))) + ".")));
 }
 
 Tone tone_of(const diagnosis::Diagnosis& d) {

@@ -109,12 +109,14 @@ std::string after_text(const diagnosis::Diagnosis& d) {
         d.between_places ? "" : " at the measured places");
     const std::string shrink =
         fmt::format("shrinks by {} % ({})", percent(d.after.shrink), interval_words(d.after));
-    return "\n" + paragraph(explained + (d.writes_causes
-                                             ? "with the written setup the gap " + shrink
-                                             : "the written setup has none of them; with it the "
-                                               "gap " +
-                                                   shrink),
-                            0);
+    const std::string background = background_words(d);
+    return "\n" +
+           paragraph(explained + (d.writes_causes ? "with the written setup the gap " + shrink
+                                                  : "the written setup has none of them; with it "
+                                                    "the gap " +
+                                                        shrink),
+                     0) +
+           (background.empty() ? "" : paragraph(background, 0));
 }
 
 /// What the rows state of their noise, if more was found.

@@ -185,6 +185,15 @@ std::string missing_in_setup(const diagnosis::Diagnosis& d, const diagnosis::Cau
     return "not in the written setup (--out): these readings do not show that it predicts others";
 }
 
+std::string background_words(const diagnosis::Diagnosis& d) {
+    if (d.background.empty()) return "";
+    return fmt::format(
+        "beside the causes the written setup has small errors, none of them certain, which "
+        "together "
+        "predict readings that were left out: {}",
+        fmt::join(d.background, ", "));
+}
+
 std::vector<std::string> unseen_effects(const diagnosis::Diagnosis& d) {
     const auto is_named = [&](const std::string& name) {
         return std::any_of(d.causes.begin(), d.causes.end(), [&](const auto& cause) {

@@ -18,6 +18,8 @@ std::string cause_name(const diagnosis::Diagnosis& d, const diagnosis::Cause& ca
 bool is_claimed(const diagnosis::Cause& cause);
 /// Words for a claimed cause that the setup of `--out` lacks although it has others; else empty.
 std::string missing_in_setup(const diagnosis::Diagnosis& d, const diagnosis::Cause& cause);
+/// "beside the causes the written setup has small errors ..."; empty where it has none.
+std::string background_words(const diagnosis::Diagnosis& d);
 /// Effects that the readings do not determine, without those that are a cause or a rival of one.
 std::vector<std::string> unseen_effects(const diagnosis::Diagnosis& d);
 /// "-27 to 43"; a lower end below -100 tells only that the gap may grow: "at most 44; ..".

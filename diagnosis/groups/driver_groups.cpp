@@ -47,7 +47,7 @@ void add_driver_groups(Design& design, const Prepared& prepared, const Whitener&
         };
         const ColumnGroup own = on_features(driver.columns);
         // The first whole one is that of with_whole_drivers().
-        if (!driver.only_where) add_whole(design, own);
+        if (!driver.only_where && !driver.has_effect) add_whole(design, own);
         if (!driver.walk.empty()) {
             ColumnGroup walk = on_features(driver.walk);
             walk.is_walk = true;

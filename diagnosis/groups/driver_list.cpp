@@ -240,6 +240,7 @@ class DriverList {
             };
             add("direction of " + name, "machine frame",
                 "changes sign with the direction of " + name, {sign, since}, beside_backlash(axis));
+            drivers_.back().has_effect = true;
             extend({[=](std::size_t i) { return sign(i) * q(i); },
                     [=](std::size_t i) { return sign(i) * q(i) * q(i); }},
                    beside_play(axis));

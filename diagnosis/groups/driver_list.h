@@ -15,6 +15,7 @@ struct Driver {
     std::vector<std::vector<double>> columns;  ///< by column, one entry for each row
     std::vector<std::vector<double>> walk;     ///< of a course of time: a random walk instead
     bool of_time = false;
+    bool has_effect = false;  ///< whole it contains a named effect: it stands beside that alone
     bool only_where = false;  ///< says where, but stands in no model: causes describe the same
 };
 

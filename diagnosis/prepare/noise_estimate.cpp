@@ -10,6 +10,7 @@
 #include "diagnosis/prepare/noise.h"
 #include "diagnosis/prepare/repeats.h"
 #include "diagnosis/prepare/spoiled_readings.h"
+#include "estimation/distributions.h"
 #include "estimation/projection.h"
 #include "estimation/quantiles.h"
 #include "estimation/scatter.h"
@@ -223,9 +224,30 @@ double without_spoiled(double least, std::vector<Stretch>& list) {
 constexpr double least_of_stated = 0.05;    ///< less is arithmetic
 constexpr double least_of_assumed = 0.002;  ///< nobody states it: a stage may be that good
 
-/// Fewer differences say no more than what is stated or usual.
+/// Fewer differences say no more than what is stated or usual, unless they contradict it.
 std::size_t fewest(records::Device device) {
     return reads_targets(device) ? 10 : 30;
+}
+
+/// True where differences tell the noise of a device better than what is stated or usual: they are
+/// many, or they contradict it. Few of them, with twice the usual size, are no accident; of some
+/// that are smaller than what is stated, the small size may be one. All limits assumed.
+bool tell_noise(const std::vector<Stretch>& list, records::Device device, NoiseSource start) {
+    constexpr std::size_t least = 4, many = 30;
+    constexpr double rare = 1e-3, off = 2.0;
+    double squares = 0.0;
+    std::size_t count = 0;
+    for (const Stretch& s : list) {
+        squares += s.value.squaredNorm();
+        count += static_cast<std::size_t>(s.value.size());
+    }
+    const auto freedom = static_cast<double>(count);
+    const double larger = estimation::chi_squared_tail(squares, freedom);
+    if (count < fewest(device))
+        return reads_targets(device) && count >= least && squares > off * off * freedom &&
+               larger < rare;
+    if (count >= many || start != NoiseSource::given || squares >= freedom) return true;
+    return 1.0 - larger < rare;
 }
 
 }  // namespace
@@ -267,9 +289,7 @@ NoiseModel noise_from_repeats(const RepeatedRows& rows, const Eigen::VectorXd& r
     bool all = !present.empty();
     for (const records::Device device : present) {
         auto& list = stretches[device];
-        std::size_t count = 0;
-        for (const Stretch& s : list) count += static_cast<std::size_t>(s.value.size());
-        if (count < fewest(device)) {
+        if (values_of(list).empty()) {
             all = false;
             continue;
         }
@@ -285,15 +305,19 @@ NoiseModel noise_from_repeats(const RepeatedRows& rows, const Eigen::VectorXd& r
         else if (device != records::Device::ballbar)
             remove_shift(rows.replay, least, list);
         double usual = single ? without_spoiled(least, list) : typical_size(list, least);
+        if (!tell_noise(list, device, start.source)) {
+            all = false;
+            continue;
+        }
         usual = std::max(least, usual);
         for (Stretch& s : list)
             s.value = s.value.cwiseMax(-farthest * usual).cwiseMin(farthest * usual);
         const double low = start.source == NoiseSource::given ? least_of_stated : least_of_assumed;
         noise.of(device) =
             estimate(rows.replay, device, list, low * std::max(1.0, usual), 4.0 * usual);
-        count = values_of(list).size();
+        const auto count = static_cast<double>(values_of(list).size());
         noise.of(device).scale = std::max(noise.of(device).scale, digit);
-        const double independent = noise.of(device).independent(static_cast<double>(count));
+        const double independent = noise.of(device).independent(count);
         noise.doubt = std::max(noise.doubt, std::sqrt(2.0 / independent));
     }
     if (all) noise.source = NoiseSource::repeats;

@@ -9,6 +9,7 @@
 #include "diagnosis/rules/rules.h"
 #include "diagnosis/search/offers.h"
 #include "diagnosis/search/solution.h"
+#include "diagnosis/verdict/block_evidence.h"
 #include "diagnosis/verdict/cause_evidence.h"
 #include "diagnosis/verdict/contenders.h"
 #include "diagnosis/verdict/line_of_form.h"
@@ -28,31 +29,6 @@ namespace {
 constexpr double doubtful = 0.4;  ///< probability at most of causes that cancel each other
 /// Probability at most where the search was ended before a contender was looked for.
 constexpr double unchallenged_most = 0.8;
-
-/// Probability at most of what that many blocks of readings saw (Laplace's rule of succession).
-double seen_by(double blocks) {
-    return (blocks + 1.0) / (blocks + 2.0);
-}
-
-/// Tempering exponent: compares block scores of a member with those expected from noise. 1 when
-/// blocks are independent; smaller when the residual follows the member over whole blocks.
-double temper(const Sizes& sizes, std::size_t k, const HeldOutEvidence& heldout) {
-    const Folds& folds = heldout.folds;
-    std::vector<double> score(folds.fold.size(), 0.0), own(folds.fold.size(), 0.0);
-    for (std::size_t i = 0; i < folds.group.size(); ++i) {
-        const auto row = static_cast<Eigen::Index>(i);
-        const double c = sizes.parts(row, static_cast<Eigen::Index>(k));
-        const auto b = static_cast<std::size_t>(folds.group[i]);
-        score[b] += c * sizes.remainder(row);
-        own[b] += c * c;
-    }
-    double square = 0.0, expected = 0.0;
-    for (std::size_t b = 0; b < own.size(); ++b) {
-        square += score[b] * score[b];
-        expected += heldout.variance * own[b];
-    }
-    return 1.0 / std::max(1.0, expected > 0.0 ? square / expected : 1.0);
-}
 
 /// A jump of the machine stands against a move of an artefact and against a drift, which are
 /// courses of time, too: beside any other effect it is one more time that was picked to fit. A
@@ -355,15 +331,16 @@ std::vector<Claim> claims_of(const Searching& search, const Model& model, const 
         std::vector<Offer> instead = others;
         for (Offer& o : beside.only_rivals(k)) instead.push_back(std::move(o));
         const double blocks = heldout.support[k].saving.blocks;
+        const double seeing = std::min(blocks, blocks_that_see(sizes, k, heldout.folds));
         const Contender& contender = heldout.found.contenders[k];
         const double seen =
             std::min({estimation::student_probability(heldout.support[k].saving.t, blocks - 1.0),
-                      seen_by(blocks), std::clamp(heldout.explained, 0.0, 1.0)});
+                      seen_by(seeing), std::clamp(heldout.explained, 0.0, 1.0)});
         const std::vector<Offer> one = sharing(design, group, instead, others);
         const std::vector<TwoInstead> two = two_instead(design, search.setting, model, k);
         const EvidenceOf told =
             evidence_of(search, model, worth[k], {one, two, !heldout.interpolates[k]},
-                        temper(sizes, k, heldout));
+                        temper(sizes, k, heldout.folds, heldout.variance));
         // What the evidence leaves open between forms of one axis is open in all that is seen, too.
         const double seen_axis = std::min(seen, told.axis);
         claim.probability = std::min(probability_against(contender),

@@ -58,6 +58,15 @@ Model with_free_line(const Design& design, Model model, const ColumnGroup& table
     return model;
 }
 
+/// True where a member saves on left-out positions what it saves at the readings, the others fitted
+/// again without it: much of what is left there may be the error of others.
+bool saves_elsewhere(Design& design, const Model& model, std::size_t position,
+                     const Saving& saving) {
+    const double noise = model.variances.nu * model.variances.nu;
+    const double here = noise * worth_of_members(design, model)[position].explained();
+    return saving.t >= rules::least_t && saving.sum >= rules::between_least * here;
+}
+
 /// True when a table predicts left-out positions of its axis, and not by chance: few positions may
 /// follow each other by accident.
 bool holds_between(Design& design, const Prepared& prepared, const Model& model,
@@ -74,10 +83,11 @@ bool holds_between(Design& design, const Prepared& prepared, const Model& model,
     const BlockLoss with = left.loss_beside_set_up(all, all),
                     without = left.loss_beside_set_up(rest, rest);
     const double noise = model.variances.nu * model.variances.nu;
-    if (without.mean() - with.mean() <=
-        rules::between_least * std::max(1e-12, without.mean() - noise))
-        return false;
     const Saving saving = saving_of(without, with);
+    if (without.mean() - with.mean() <=
+            rules::between_least * std::max(1e-12, without.mean() - noise) &&
+        !saves_elsewhere(design, free, position, saving))
+        return false;
     return saving.blocks >= rules::many_places ||
            estimation::student_probability(saving.t, saving.blocks - 1.0) >= rules::between_sure;
 }
