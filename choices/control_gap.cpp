@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "choices/early_end.h"
 #include "choices/gap_notes.h"
 #include "choices/judged_noise.h"
 #include "choices/log_meaning.h"
@@ -169,6 +170,7 @@ Answer answered(const Asked& any, const records::PositionLog& own) {
     try_whole(asked, log, answer);
     try_begun_within(asked, log, answer);
     tell_foreign(log.foreign.size(), answer.gap);
+    tell_early_end(asked, log, answer);
     return answer;
 }
 

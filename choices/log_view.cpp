@@ -292,8 +292,8 @@ LogOfProgram log_of_program(const records::PositionLog& log,
                 out.view.rows.push_back(
                     {offsets::control_position_of(at), key, sigma, row.line, true});
         }
-        out.view.rows.push_back(
-            {offsets::control_position_of(row.at), key, sigma, row.line, row.end, row.cut});
+        out.view.rows.push_back({offsets::control_position_of(row.at), key, sigma, row.line,
+                                 row.end, row.cut, row.repeated});
         out.view.marked = out.view.marked || row.end;
         before = &row;
     }
