@@ -16,10 +16,11 @@ namespace trunnion::choices {
 
 namespace {
 
-constexpr double claimed = 0.5;        ///< least probability of a claim
-constexpr std::size_t least_late = 3;  ///< blocks with wrong rows, where numbers are late
-constexpr double contradicts = 0.9;    ///< of the loss: most that stays without the numbers
-constexpr double much_less = 0.5;      ///< of the loss that causes leave, by another reading
+constexpr double claimed = 0.5;          ///< least probability of a claim
+constexpr std::size_t least_late = 3;    ///< blocks with wrong rows, where numbers are late
+constexpr double contradicts = 0.9;      ///< of the loss: most that stays without the numbers
+constexpr double almost_nothing = 0.05;  ///< of the loss: most that stays by the order of the rows
+constexpr double much_less = 0.5;        ///< of the loss that causes leave, by another reading
 /// Rows of a log, and their pairs with the points of a path, that take minutes without numbers
 /// (assumed).
 constexpr std::size_t many_rows = 4'000, many_pairs = 50'000'000;
@@ -62,13 +63,22 @@ void try_reading(const Asked& asked, LogOfProgram other, Answer& answer) {
     if (!is_left(second.gap)) answer = std::move(second);
 }
 
-/// Without the numbers of blocks, if these contradict the positions.
-void try_without_numbers(const Asked& asked, const LogOfProgram& log, Answer& answer) {
+/// Without the numbers of blocks, if these contradict the positions: if causes explain the log
+/// wholly so, or if almost nothing of the gap stays by the order of the rows. (A control that reads
+/// ahead under G41 may tell the block that it has read, and begin and end its offset otherwise.)
+void try_without_numbers(const Asked& asked, LogOfProgram& log, Answer& answer) {
     if (!is_left(answer.gap) || answer.left < least_late || log.view.keys == 0) return;
     LogOfProgram other = without_numbers(log);
     const setup::Setup& setup = asked.question.setup;
-    if (asked.comparer(other).run(setup).loss <= contradicts * asked.comparer(log).run(setup).loss)
-        try_reading(asked, std::move(other), answer);
+    const double own = asked.comparer(log).run(setup).loss,
+                 here = asked.comparer(other).run(setup).loss;
+    if (here > contradicts * own) return;
+    Answer second = judged(asked, other);
+    const bool almost = here <= almost_nothing * own &&
+                        second.gap.after_rms_um < much_less * answer.gap.after_rms_um;
+    if (is_left(second.gap) && !almost) return;
+    answer = std::move(second);
+    log = std::move(other);
 }
 
 /// Without numbers of blocks, the moves behind a large gap may seem to be no part of the log: as a
