@@ -10,6 +10,7 @@
 #include "choices/gap_notes.h"
 #include "choices/judged_noise.h"
 #include "choices/log_meaning.h"
+#include "choices/program_shape.h"
 #include "choices/trace_of_ends.h"
 
 namespace trunnion::choices {
@@ -212,6 +213,9 @@ ControlGap control_gap(const GapQuestion& question, interpreter::ProgramSource& 
         throw PathEnded{true};
     const std::vector<interpreter::ProgramText> all = called();
     const Asked asked{question, programs, all};
+    LogOfProgram plain = log_of_program(question.log, all, question.max_blocks);
+    coarsen_if_long(asked, plain);
+    if (fits_nowhere(asked, plain)) return judged_foreign(asked, plain).gap;
     const records::PositionLog own = log_as_meant(asked, question.setup);
     Answer answer = answered(asked, own);
     if (!own.ends && answer.gap.verdict != GapVerdict::no_gap) try_ends(asked, answer);
