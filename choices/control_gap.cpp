@@ -8,6 +8,7 @@
 
 #include "choices/early_end.h"
 #include "choices/gap_notes.h"
+#include "choices/inch_rounding.h"
 #include "choices/judged_noise.h"
 #include "choices/log_meaning.h"
 #include "choices/program_shape.h"
@@ -180,6 +181,7 @@ Answer answered(const Asked& any, const records::PositionLog& own) {
     try_without_numbers(asked, log, answer);
     try_whole(asked, log, answer);
     try_begun_within(asked, log, answer);
+    settle_inch_rounding(asked, log, answer);
     tell_foreign(log.foreign.size(), answer.gap);
     tell_early_end(asked, log, answer);
     return answer;
