@@ -6,19 +6,23 @@
 #include <optional>
 #include <utility>
 
+#include "choices/early_end.h"
 #include "choices/gap_notes.h"
+#include "choices/inch_rounding.h"
 #include "choices/judged_noise.h"
 #include "choices/log_meaning.h"
+#include "choices/program_shape.h"
 #include "choices/trace_of_ends.h"
 
 namespace trunnion::choices {
 
 namespace {
 
-constexpr double claimed = 0.5;        ///< least probability of a claim
-constexpr std::size_t least_late = 3;  ///< blocks with wrong rows, where numbers are late
-constexpr double contradicts = 0.9;    ///< of the loss: most that stays without the numbers
-constexpr double much_less = 0.5;      ///< of the loss that causes leave, by another reading
+constexpr double claimed = 0.5;          ///< least probability of a claim
+constexpr std::size_t least_late = 3;    ///< blocks with wrong rows, where numbers are late
+constexpr double contradicts = 0.9;      ///< of the loss: most that stays without the numbers
+constexpr double almost_nothing = 0.05;  ///< of the loss: most that stays by the order of the rows
+constexpr double much_less = 0.5;        ///< of the loss that causes leave, by another reading
 /// Rows of a log, and their pairs with the points of a path, that take minutes without numbers
 /// (assumed).
 constexpr std::size_t many_rows = 4'000, many_pairs = 50'000'000;
@@ -61,13 +65,22 @@ void try_reading(const Asked& asked, LogOfProgram other, Answer& answer) {
     if (!is_left(second.gap)) answer = std::move(second);
 }
 
-/// Without the numbers of blocks, if these contradict the positions.
-void try_without_numbers(const Asked& asked, const LogOfProgram& log, Answer& answer) {
+/// Without the numbers of blocks, if these contradict the positions: if causes explain the log
+/// wholly so, or if almost nothing of the gap stays by the order of the rows. (A control that reads
+/// ahead under G41 may tell the block that it has read, and begin and end its offset otherwise.)
+void try_without_numbers(const Asked& asked, LogOfProgram& log, Answer& answer) {
     if (!is_left(answer.gap) || answer.left < least_late || log.view.keys == 0) return;
     LogOfProgram other = without_numbers(log);
     const setup::Setup& setup = asked.question.setup;
-    if (asked.comparer(other).run(setup).loss <= contradicts * asked.comparer(log).run(setup).loss)
-        try_reading(asked, std::move(other), answer);
+    const double own = asked.comparer(log).run(setup).loss,
+                 here = asked.comparer(other).run(setup).loss;
+    if (here > contradicts * own) return;
+    Answer second = judged(asked, other);
+    const bool almost = here <= almost_nothing * own &&
+                        second.gap.after_rms_um < much_less * answer.gap.after_rms_um;
+    if (is_left(second.gap) && !almost) return;
+    answer = std::move(second);
+    log = std::move(other);
 }
 
 /// Without numbers of blocks, the moves behind a large gap may seem to be no part of the log: as a
@@ -168,7 +181,9 @@ Answer answered(const Asked& any, const records::PositionLog& own) {
     try_without_numbers(asked, log, answer);
     try_whole(asked, log, answer);
     try_begun_within(asked, log, answer);
+    settle_inch_rounding(asked, log, answer);
     tell_foreign(log.foreign.size(), answer.gap);
+    tell_early_end(asked, log, answer);
     return answer;
 }
 
@@ -200,6 +215,9 @@ ControlGap control_gap(const GapQuestion& question, interpreter::ProgramSource& 
         throw PathEnded{true};
     const std::vector<interpreter::ProgramText> all = called();
     const Asked asked{question, programs, all};
+    LogOfProgram plain = log_of_program(question.log, all, question.max_blocks);
+    coarsen_if_long(asked, plain);
+    if (fits_nowhere(asked, plain)) return judged_foreign(asked, plain).gap;
     const records::PositionLog own = log_as_meant(asked, question.setup);
     Answer answer = answered(asked, own);
     if (!own.ends && answer.gap.verdict != GapVerdict::no_gap) try_ends(asked, answer);

@@ -72,8 +72,10 @@ struct ControlGap {
     GapShrink after;
     std::vector<GapBlock> left;       ///< blocks with the largest remaining parts
     std::vector<std::string> unseen;  ///< options and stores that this program does not determine
-    std::string stopped;              ///< alarm that stops the program on this control; empty: none
-    setup::Setup setup;               ///< with the causes
+    GapPlace ends_before;       ///< the log has no moves from this block on; line 0: it has all
+    bool stands_there = false;  ///< and shows that the other control stopped before it
+    std::string stopped;        ///< alarm that stops the program on this control; empty: none
+    setup::Setup setup;         ///< with the causes
     std::vector<std::string> notes;
 };
 

@@ -188,6 +188,31 @@ std::size_t blocks_beyond(const ComparedRun& run, const std::vector<int>& blocks
 
 }  // namespace
 
+Answer judged_foreign(const Asked& asked, const LogOfProgram& log) {
+    const GapQuestion& question = asked.question;
+    Answer out;
+    out.reached = question.setup;
+    ControlGap& gap = out.gap;
+    gap.setup = question.setup;
+    gap.notes = log.notes;
+    tell_sampling(log.view, gap.notes);
+    const Comparer comparer = asked.comparer(log);
+    const ComparedRun base = comparer.run(question.setup);
+    const std::vector<int> blocks = blocks_of(log.view, base);
+    gap.blocks = std::set<int>(blocks.begin(), blocks.end()).size();
+    const BlockTexts texts(question.program, asked.texts);
+    const Teller teller(log, texts, blocks, directions_of(log.view, base));
+    tell_base(log, base, teller, gap);
+    gap.left = gap.where;
+    gap.verdict = GapVerdict::unexplained;
+    add_unknown(gap, gap.blocks, nothing_explains(gap));
+    gap.notes.emplace_back(
+        "most of the straight ways of the log go where no move of this program goes, with no "
+        "option "
+        "of this control, so no cause was sought: is this the program that was logged?");
+    return out;
+}
+
 Answer judged_at_sigma(const Asked& asked, LogOfProgram log) {
     const GapQuestion& question = asked.question;
     // Not Answer{{}, setup}: without memory for the copy, GCC 12 destroys a gap that it never made.

@@ -38,6 +38,9 @@ bool is_left(const ControlGap& gap);
 /// sure as there are blocks with it.
 void add_unknown(ControlGap& gap, std::size_t blocks, GapCause cause);
 
+/// Of a log that fits the program nowhere: its gap, without a search.
+Answer judged_foreign(const Asked& asked, const LogOfProgram& log);
+
 /// By a search of its own, with the noise that the log has.
 Answer judged_at_sigma(const Asked& asked, LogOfProgram log);
 

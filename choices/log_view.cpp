@@ -11,9 +11,9 @@
 
 #include "base/alarm.h"
 #include "base/units.h"
+#include "choices/logged_arcs.h"
 #include "choices/missing_rows.h"
 #include "choices/rows_at_ends.h"
-#include "motion/motion.h"
 
 namespace trunnion::choices {
 
@@ -138,27 +138,6 @@ class BlockKeys {
     std::map<std::pair<std::string, int>, int> keys_;
     bool by_number_ = false, knows_program_ = false;
 };
-
-/// Position on an arc of the log at fraction `part`; the other axes are linear.
-AxisPositions on_arc(const records::LoggedArc& arc, const AxisPositions& from,
-                     const AxisPositions& to, double part) {
-    const auto xyz = [](const AxisPositions& q) {
-        return Vector3(q[Axis::X], q[Axis::Y], q[Axis::Z]);
-    };
-    const Vector3 n = arc.normal.normalized(), a = xyz(from) - arc.centre_mm,
-                  b = xyz(to) - arc.centre_mm;
-    double sweep = std::atan2(n.dot(a.cross(b)), a.dot(b) - n.dot(a) * n.dot(b));
-    const double way = arc.turns < 0 ? -1.0 : 1.0;
-    if (way * sweep <= 1e-9) sweep += way * 2.0 * pi;
-    sweep += way * 2.0 * pi * (std::abs(arc.turns) - 1.0);
-    AxisPositions out;
-    for (std::size_t i = 0; i < axis_count; ++i)
-        out.value[i] = from.value[i] + part * (to.value[i] - from.value[i]);
-    const Vector3 p =
-        motion::point_on_arc({arc.centre_mm, n, arc.turns, sweep}, xyz(from), xyz(to), part);
-    for (int k = 0; k < 3; ++k) out.value[static_cast<std::size_t>(k)] = p[k];
-    return out;
-}
 
 /// Scatter of one axis about a smooth motion: third differences.
 double scatter(const LogView& view, Axis axis) {
@@ -295,29 +274,28 @@ LogOfProgram log_of_program(const records::PositionLog& log,
     const auto keys = std::make_shared<BlockKeys>(log, texts);
     out.view.axes = log.axes;
     out.view.ends = log.ends;
-    AxisPositions before;
+    const LoggedArcs arcs(log);
+    const records::LoggedPosition* before = nullptr;
     keys->refuse_mostly_foreign(log);
     for (const records::LoggedPosition& row : log.rows) {
         if (keys->is_foreign(row)) {
             out.foreign.insert(row.block);
             if (!out.view.rows.empty()) out.view.rows.back().cut = true;
-            before = row.at;
+            before = &row;
             continue;
         }
         const int key = log.blocks == records::BlockColumn::none ? -1 : keys->of_row(log, row);
         const double sigma = row.sigma_mm;
         if (log.ends && row.arc) {
             out.path.arc_points = true;
-            for (int part = 1; part < arc_parts; ++part)
+            for (const AxisPositions& at : arcs.quarters(before, row))
                 out.view.rows.push_back(
-                    {offsets::control_position_of(
-                         on_arc(*row.arc, before, row.at, static_cast<double>(part) / arc_parts)),
-                     key, sigma, row.line, true});
+                    {offsets::control_position_of(at), key, sigma, row.line, true});
         }
-        out.view.rows.push_back(
-            {offsets::control_position_of(row.at), key, sigma, row.line, row.end, row.cut});
+        out.view.rows.push_back({offsets::control_position_of(row.at), key, sigma, row.line,
+                                 row.end, row.cut, row.repeated});
         out.view.marked = out.view.marked || row.end;
-        before = row.at;
+        before = &row;
     }
     out.view.keys = keys->count();
     out.by_number = keys->by_number();

@@ -20,6 +20,7 @@ struct LogView {
         int line = 0;         ///< in the log's file
         bool end = false;     ///< end of a move: belongs to a node, not to a segment
         bool cut = false;     ///< rows are missing between this one and the next
+        int repeated = 0;     ///< rows at the same place, left out
     };
     std::vector<Row> rows;
     std::vector<Axis> axes;      ///< axes in the log

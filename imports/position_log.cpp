@@ -288,10 +288,12 @@ records::PositionLog read_position_log(std::string_view text, const std::string&
         printed.add(cells);
         records::LoggedPosition row = row_of(table, i, cells, columns);
         row.end = columns.motion && !sample;
-        if (log.rows.empty() || !repeats(row, log.rows.back()))
+        if (log.rows.empty() || !repeats(row, log.rows.back())) {
             log.rows.push_back(std::move(row));
-        else
+        } else {
             log.rows.back().end = log.rows.back().end || row.end;
+            ++log.rows.back().repeated;
+        }
     }
     if (log.rows.empty()) table.header_line().fail("no row below this line", 1);
     if (!log.ends) lost.mark(log.rows);

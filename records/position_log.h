@@ -27,6 +27,7 @@ struct LoggedPosition {
     bool cut = false;       ///< rows are missing behind it: the times say so
     double sigma_mm = 0.0;  ///< standard uncertainty, mm or deg; 0: not given
     int line = 0;           ///< in the log's file
+    int repeated = 0;       ///< rows behind it that say the same, and are left out
 };
 
 /// Meaning of the numbers in `block`.

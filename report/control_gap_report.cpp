@@ -101,6 +101,13 @@ std::string blocks_text(const char* head, const std::vector<choices::GapBlock>& 
     return out;
 }
 
+/// Nothing differs but that the log ends.
+bool agrees_up_to_stop(const choices::ControlGap& gap) {
+    return gap.stands_there && gap.causes.size() == 1 &&
+           gap.causes.front().first.line == gap.ends_before.line &&
+           gap.causes.front().first.log_line == gap.ends_before.log_line;
+}
+
 /// A cause that would remove much, but is not sure, is said to be so.
 std::string unexplained_words(const choices::ControlGap& gap) {
     const auto most = std::find_if(gap.causes.begin(), gap.causes.end(), [](const auto& cause) {
@@ -135,7 +142,16 @@ std::string number_words(const choices::FittedNumber& n) {
 std::string verdict_sentence(const choices::ControlGap& gap) {
     using choices::GapVerdict;
     if (gap.verdict == GapVerdict::no_gap)
-        return "The control moves as the log says, within its noise.";
+        return fmt::format("The control moves as the log says, within its noise{}.",
+                           gap.ends_before.line == 0 ? std::string()
+                                                     : "; it lacks the moves from " +
+                                                           place_words(gap.ends_before) + " on");
+    if (agrees_up_to_stop(gap))
+        return fmt::format(
+            "Log and control agree within the noise, but the log lacks the moves from {} on: the "
+            "other control "
+            "stopped there, or the log was cut off.",
+            place_words(gap.ends_before));
     const std::string size = fmt::format("Log and control differ by {} rms, at most {} mm or deg",
                                          length_words(gap.rms_um), apart_words(gap.worst));
     if (gap.verdict == GapVerdict::unexplained) return size + unexplained_words(gap);
@@ -182,6 +198,8 @@ std::string control_gap_json(const choices::ControlGap& gap, const std::vector<F
     json["rows"] = gap.rows;
     json["blocks"] = gap.blocks;
     json["stopped"] = gap.stopped;
+    json["ends_before"] = gap.ends_before.line == 0 ? Json() : place_json(gap.ends_before);
+    json["stands_there"] = gap.stands_there;
     add_inputs(json, inputs);
     return json.dump(1) + "\n";
 }
