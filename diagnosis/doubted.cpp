@@ -14,8 +14,11 @@
 namespace trunnion::diagnosis {
 namespace {
 
-bool has_period(const ColumnGroup& group) {
-    return group.kind == GroupKind::periodic && group.effect->kind == effects::EffectKind::cyclic;
+/// A ripple, or a course of time: between or after the readings it is something else where it is
+/// not sure. A slip is over.
+bool goes_on(const ColumnGroup& group) {
+    return group.kind == GroupKind::periodic &&
+           group.effect->kind != effects::EffectKind::artefact_moved;
 }
 
 /// True where a ripple is more likely than the claim, which is the ripple found or another cause.
@@ -23,10 +26,10 @@ bool has_period(const ColumnGroup& group) {
 bool is_improbable_ripple(const Outcome& f, const Claim& claim) {
     if (claim.probability >= rules::claimed || !f.judgement.interpolates[claim.position])
         return false;
-    if (has_period(f.design.group(f.model.members[claim.position]))) return true;
+    if (goes_on(f.design.group(f.model.members[claim.position]))) return true;
     if (claim.rival_groups.empty() || claim.share < rules::between_part) return false;
     const Design::Entry& nearest = f.design.groups()[claim.rival_groups.front()];
-    return nearest.only_rival && has_period(nearest.group);
+    return nearest.only_rival && goes_on(nearest.group);
 }
 
 /// Probability that a claim is there, or a rival that does the same at these readings: which of the

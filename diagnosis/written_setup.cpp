@@ -206,12 +206,28 @@ bool has_causes(const Outcome& f, const Model& model) {
                        [&](std::size_t m) { return is_cause(f.design.group(m).kind); });
 }
 
+/// Log likelihood of a model, without the priors of its members.
+double likelihood_of(const Outcome& f, const Model& model) {
+    const Model best = tuned(f.design, f.setting, model, 1);
+    double likelihood = best.score;
+    for (std::size_t k = 0; k < best.members.size(); ++k) {
+        const ColumnGroup& group = f.design.group(best.members[k]);
+        likelihood -= group.log_prior + log_prior_of_size(group, best.variances.tau[k]);
+    }
+    return likelihood;
+}
+
 /// The causes with small errors of all axes, where these help left-out blocks and do not harm
-/// left-out paths; else the causes alone.
+/// left-out paths; else the causes alone. Their sizes are fitted to all readings, those that are
+/// left out too: the likelihood must gain more than so many sizes gain of noise.
 Model beside_small_errors(const Outcome& f, const Paths& paths, const Model& causes) {
     if (paths.one || !has_causes(f, causes)) return causes;
     Model whole = with_background(f, causes);
     if (whole.members.size() == causes.members.size()) return causes;
+    const auto added = static_cast<double>(whole.members.size() - causes.members.size());
+    if (likelihood_of(f, whole) - likelihood_of(f, causes) <
+        rules::least_evidence + rules::size_of_noise * added)
+        return causes;
     const Folds& blocks = f.prepared.folds;
     const Saving saving = saving_of(loss_of(f, causes, blocks), loss_of(f, whole, blocks));
     const Saving elsewhere =

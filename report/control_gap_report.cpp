@@ -149,8 +149,7 @@ std::string verdict_sentence(const choices::ControlGap& gap) {
     if (agrees_up_to_stop(gap))
         return fmt::format(
             "Log and control agree within the noise, but the log lacks the moves from {} on: the "
-            "other control "
-            "stopped there, or the log was cut off.",
+            "other control stopped there, or the log was cut off.",
             place_words(gap.ends_before));
     const std::string size = fmt::format("Log and control differ by {} rms, at most {} mm or deg",
                                          length_words(gap.rms_um), apart_words(gap.worst));

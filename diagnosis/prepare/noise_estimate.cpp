@@ -304,7 +304,11 @@ NoiseModel noise_from_repeats(const RepeatedRows& rows, const Eigen::VectorXd& r
             remove_zeros_of_cycles(rows.cycle, sigma_mm, least, list);
         else if (device != records::Device::ballbar)
             remove_shift(rows.replay, least, list);
-        double usual = single ? without_spoiled(least, list) : typical_size(list, least);
+        // Of few differences none is known to be spoiled.
+        const bool few = values_of(list).size() < fewest(device);
+        double usual = few      ? rms(list)
+                       : single ? without_spoiled(least, list)
+                                : typical_size(list, least);
         if (!tell_noise(list, device, start.source)) {
             all = false;
             continue;

@@ -1,6 +1,8 @@
 #include "diagnosis/verdict/block_evidence.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <vector>
 
 namespace trunnion::diagnosis {
@@ -31,12 +33,13 @@ double seen_by(double blocks) {
 }
 
 double blocks_that_see(const Sizes& sizes, std::size_t position, const Folds& folds) {
-    double sum = 0.0, squares = 0.0;
-    for (const double own : by_block(sizes, position, folds).own) {
-        sum += own;
-        squares += own * own;
-    }
-    return squares > 0.0 ? sum * sum / squares : 0.0;
+    const std::vector<double> own = by_block(sizes, position, folds).own;
+    const double sum = std::accumulate(own.begin(), own.end(), 0.0);
+    if (sum <= 0.0) return 0.0;
+    double entropy = 0.0;
+    for (const double square : own)
+        if (square > 0.0) entropy -= square / sum * std::log(square / sum);
+    return std::exp(entropy);
 }
 
 double temper(const Sizes& sizes, std::size_t position, const Folds& folds, double variance) {

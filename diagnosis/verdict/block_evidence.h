@@ -12,7 +12,7 @@ namespace trunnion::diagnosis {
 double seen_by(double blocks);
 
 /// Number of blocks that see a member: of blocks alike their count, of what one block alone shows
-/// 1 (squared sum of what it does in each by the sum of the squares).
+/// 1 (exponential of the entropy of the parts of its squares).
 double blocks_that_see(const Sizes& sizes, std::size_t position, const Folds& folds);
 
 /// Tempering exponent: compares block scores of a member with those expected from noise of this
