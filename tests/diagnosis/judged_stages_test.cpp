@@ -86,13 +86,13 @@ records::ReadingTable wound_up(double decay_mm, std::uint64_t seed) {
 TEST_CASE("few repeats that contradict the usual noise are the noise", "[diagnosis][judged]") {
     const double size_mm = GENERATE(0.005, 0.02);
     int loud = 0;
-    for (unsigned seed = 1; seed <= 20; ++seed) {
+    for (unsigned seed = 1; seed <= 60; ++seed) {
         std::mt19937_64 engine(seed);
         std::normal_distribution<double> noise(0.0, size_mm);
         const auto table = one_way(4, 3, [&](int, int) { return noise(engine); });
         if (diagnosed(judged_stage(), table).verdict != diagnosis::Verdict::no_gap) ++loud;
     }
-    CHECK(loud <= 1);
+    CHECK(loud <= 3);
 }
 
 TEST_CASE("some repeats that are small by accident do not contradict what is stated",
@@ -128,24 +128,30 @@ TEST_CASE("a play that winds up over a part of the travel is a play", "[diagnosi
     CHECK(d.verdict != diagnosis::Verdict::unexplained);
 }
 
-TEST_CASE("what one block alone shows is never nearly certain", "[diagnosis][judged]") {
-    // The first pass creeps at its start; all others are a plain play.
-    std::mt19937_64 engine(2);
-    std::normal_distribution<double> noise(0.0, 3e-4);
+TEST_CASE("what the start of one pass shows is never nearly certain", "[diagnosis][judged]") {
+    // Hysteresis that begins unwound: in the first pass alone there is no reversal behind.
+    std::mt19937_64 engine(GENERATE(1, 2, 3));
+    std::normal_distribution<double> noise(0.0, 4e-4);
     records::ReadingTable table = stage_table();
-    for (int run = 0; run < 4; ++run) {
-        add_reading(table, -5.0, NAN);
-        for (int k = 0; k <= 14; ++k)
-            add_reading(table, 25.0 * k,
-                        -5e-3 + noise(engine) + (run == 0 ? 6e-3 * std::exp(-0.9 * k) : 0.0));
-        add_reading(table, 355.0, NAN);
-        for (int k = 14; k >= 0; --k) add_reading(table, 25.0 * k, 5e-3 + noise(engine));
+    double at_mm = -5.0, wound = 0.0;
+    add_reading(table, at_mm, NAN);
+    const auto go_to = [&](double next_mm, bool reads) {
+        const double side = next_mm > at_mm ? 1.0 : -1.0;
+        wound += (side - wound) * (1.0 - std::exp(-std::abs(next_mm - at_mm) / 20.0));
+        at_mm = next_mm;
+        add_reading(table, at_mm, reads ? -5.7e-3 * wound + noise(engine) : NAN);
+    };
+    for (int run = 0; run < 3; ++run) {
+        for (int k = 0; k <= 14; ++k) go_to(25.0 * k, true);
+        go_to(355.0, false);
+        for (int k = 14; k >= 0; --k) go_to(25.0 * k, true);
+        go_to(-5.0, false);
     }
     const diagnosis::Diagnosis d = diagnosed(judged_stage(), table);
     INFO(said(d));
     CHECK(claims(d, "X.backlash"));
     for (const diagnosis::Cause& cause : d.causes)
-        if (cause.effect != "X.backlash") CHECK(cause.probability < 0.9);
+        if (cause.effect == "thermal.drift") CHECK(cause.probability < 0.75);
 }
 
 TEST_CASE("separate readings do not refute a cause that the tested setup lacks",

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "diagnosis/search/model_weight.h"
+#include "diagnosis/verdict/block_evidence.h"
 #include "diagnosis/verdict/order.h"
 #include "diagnosis/verdict/reply.h"
 #include "tests/support/made_columns.h"
@@ -31,6 +32,19 @@ TEST_CASE("causes that cancel divide what they do together", "[diagnosis]") {
     CHECK(shares[0] == Approx(0.5).margin(0.1));
     // Each alone does nearly all of it, and neither is to be called none.
     CHECK(shares[1] == Approx(0.5).margin(0.1));
+}
+
+TEST_CASE("blocks that see a cause are counted by what it does in them", "[diagnosis]") {
+    const diagnosis::Folds folds{{0, 0, 1, 1, 2, 2, 3, 3}, {0, 1, 2, 3}};
+    diagnosis::Sizes sizes;
+    sizes.parts = Eigen::MatrixXd::Zero(8, 3);
+    sizes.remainder = Eigen::VectorXd::Zero(8);
+    sizes.parts.col(0).setConstant(-2.0);
+    sizes.parts(5, 1) = 3.0;
+    CHECK(diagnosis::blocks_that_see(sizes, 0, folds) == Approx(4.0));
+    CHECK(diagnosis::blocks_that_see(sizes, 1, folds) == Approx(1.0));
+    CHECK(diagnosis::blocks_that_see(sizes, 2, folds) == 0.0);
+    CHECK(diagnosis::seen_by(1.0) == Approx(2.0 / 3.0));
 }
 
 TEST_CASE("a cause answers a contender with what that found besides", "[diagnosis]") {
