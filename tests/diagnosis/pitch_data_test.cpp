@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "base/units.h"
+#include "diagnosis/beyond_command.h"
 #include "diagnosis/diagnosis.h"
 #include "report/error_table.h"
 #include "tests/support/campaign.h"
@@ -193,6 +194,33 @@ TEST_CASE("pitch error data of a rotary axis take its error away, and add up to 
         CHECK(1e3 * rms_um(before) > 200.0);
         CHECK(1e3 * rms_um(turned(build.tool, more, typed, 4)) < 12.0);
     }
+}
+
+TEST_CASE("data of a part of a turn end with it, a whole turn beside them too", "[diagnosis]") {
+    const auto cause_over = [](double from_rad, double to_rad, int steps) {
+        diagnosis::Cause cause;
+        cause.effect = "C.positioning";
+        cause.probability = 0.9;
+        cause.beyond.axis = "C";
+        cause.beyond.rotary = true;
+        for (int k = 0; k <= steps; ++k) {
+            const double q = from_rad + (to_rad - from_rad) * k / steps;
+            cause.beyond.at.push_back(q);
+            cause.beyond.too_far.push_back(1e-4 * std::sin(q));
+        }
+        return cause;
+    };
+    const double from = -0.5 * pi, to = rad_from_deg(100.0);
+    std::vector<diagnosis::Cause> causes{cause_over(from, to, 38), cause_over(0.0, 2.0 * pi, 72)};
+    if (GENERATE(false, true)) std::swap(causes[0], causes[1]);
+    diagnosis::join_of_axis({}, causes);
+    const diagnosis::BeyondCommand& beyond = causes[0].beyond;
+    CHECK(causes[0].includes == "C.positioning");
+    CHECK(causes[1].beyond.at.empty());
+    CHECK(beyond.at.front() == Approx(from));
+    CHECK(beyond.at.back() == Approx(to));
+    for (const double q : {-1.4, -0.3, 0.7, 1.6})
+        CHECK(beyond(q) == Approx(2e-4 * std::sin(q)).margin(1e-6));
 }
 
 }  // namespace trunnion

@@ -138,6 +138,16 @@ TEST_CASE("a setup without the causes is not said to shrink the gap by them") {
     CHECK_THAT(report::diagnosis_text(d), Catch::Contains("the causes explain"));
 }
 
+TEST_CASE("small errors beside the causes are told, and called none of them") {
+    diagnosis::Diagnosis d = with_parameters({});
+    CHECK_THAT(report::diagnosis_text(d), !Catch::Contains("small errors"));
+    d.background = {"X.scale", "Y.straightness"};
+    CHECK(report::background_words(d) ==
+          "beside the causes the written setup has small errors, none of them certain, which "
+          "together predict readings that were left out: X.scale, Y.straightness");
+    CHECK_THAT(report::diagnosis_text(d), Catch::Contains("small errors, none of them certain"));
+}
+
 TEST_CASE("what one measurement tells apart stands in one entry") {
     diagnosis::Diagnosis d = with_parameters({});
     d.next.clear();
