@@ -10,11 +10,11 @@ namespace trunnion::choices {
 
 namespace {
 
-constexpr double increment_mm = 25.4e-4;  ///< of IS-B in inch
+constexpr double increment_mm = 25.4e-4;  ///< Fanuc, increment system IS-B: 0.0001 inch
 constexpr double beside_sigmas = 3.0;
 
-/// G20, or G70 of BNC, anywhere.
-bool has_inches(const std::vector<interpreter::ProgramText>& texts) {
+/// G20, or G70 of a Hurco's BNC, anywhere.
+bool has_inches(const std::vector<interpreter::ProgramText>& texts, bool hurco) {
     const auto has = [](const std::string& text, const char* code) {
         for (std::size_t at = text.find(code); at != std::string::npos;
              at = text.find(code, at + 1)) {
@@ -27,7 +27,7 @@ bool has_inches(const std::vector<interpreter::ProgramText>& texts) {
     };
     return std::any_of(texts.begin(), texts.end(), [&](const interpreter::ProgramText& program) {
         const std::string text(program.text);
-        return has(text, "G20") || has(text, "G70");
+        return has(text, "G20") || (hurco && has(text, "G70"));
     });
 }
 
@@ -38,7 +38,8 @@ void settle_inch_rounding(const Asked& asked, const LogOfProgram& log, Answer& a
     const bool claims = std::any_of(gap.causes.begin(), gap.causes.end(),
                                     [](const GapCause& c) { return c.known && is_claimed(c); });
     if (gap.verdict != GapVerdict::unexplained || claims || log.noise == LogNoise::given ||
-        !has_inches(asked.texts))
+        !has_inches(asked.texts,
+                    asked.question.setup.dialect.family == interpreter::DialectFamily::hurco))
         return;
     const ComparedRun run = asked.comparer(log).run(asked.question.setup);
     const double most = increment_mm + beside_sigmas * log.sigma;

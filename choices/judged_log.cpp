@@ -186,16 +186,20 @@ std::size_t blocks_beyond(const ComparedRun& run, const std::vector<int>& blocks
     return out.size();
 }
 
+/// What is known of the answer before anything is compared.
+void begin(const GapQuestion& question, const LogOfProgram& log, Answer& out) {
+    out.reached = out.gap.setup = question.setup;
+    out.gap.notes = log.notes;
+    tell_sampling(log.view, out.gap.notes);
+}
+
 }  // namespace
 
 Answer judged_foreign(const Asked& asked, const LogOfProgram& log) {
     const GapQuestion& question = asked.question;
     Answer out;
-    out.reached = question.setup;
+    begin(question, log, out);
     ControlGap& gap = out.gap;
-    gap.setup = question.setup;
-    gap.notes = log.notes;
-    tell_sampling(log.view, gap.notes);
     const Comparer comparer = asked.comparer(log);
     const ComparedRun base = comparer.run(question.setup);
     const std::vector<int> blocks = blocks_of(log.view, base);
@@ -207,9 +211,8 @@ Answer judged_foreign(const Asked& asked, const LogOfProgram& log) {
     gap.verdict = GapVerdict::unexplained;
     add_unknown(gap, gap.blocks, nothing_explains(gap));
     gap.notes.emplace_back(
-        "most of the straight ways of the log go where no move of this program goes, with no "
-        "option "
-        "of this control, so no cause was sought: is this the program that was logged?");
+        "most of the straight ways of the log go where no move of this program goes, whatever the "
+        "options of this control, so no cause was sought: is this the program that was logged?");
     return out;
 }
 
@@ -217,11 +220,8 @@ Answer judged_at_sigma(const Asked& asked, LogOfProgram log) {
     const GapQuestion& question = asked.question;
     // Not Answer{{}, setup}: without memory for the copy, GCC 12 destroys a gap that it never made.
     Answer out;
-    out.reached = question.setup;
+    begin(question, log, out);
     ControlGap& gap = out.gap;
-    gap.setup = question.setup;
-    gap.notes = log.notes;
-    tell_sampling(log.view, gap.notes);
     const ComparedRun first = asked.comparer(log).run(question.setup);
     const std::vector<int> blocks = blocks_of(log.view, first);
     // A motion that the log samples coarsely looks like noise, and would hide a gap.

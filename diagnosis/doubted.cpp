@@ -14,8 +14,8 @@
 namespace trunnion::diagnosis {
 namespace {
 
-/// A ripple, or a course of time: between or after the readings it is something else where it is
-/// not sure. A slip is over.
+/// A ripple, a drift or a spike: one that is not sure may do something else at other positions and
+/// times. A slip has happened, whatever its name.
 bool goes_on(const ColumnGroup& group) {
     return group.kind == GroupKind::periodic &&
            group.effect->kind != effects::EffectKind::artefact_moved;

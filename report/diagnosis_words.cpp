@@ -189,8 +189,7 @@ std::string background_words(const diagnosis::Diagnosis& d) {
     if (d.background.empty()) return "";
     return fmt::format(
         "beside the causes the written setup has small errors, none of them certain, which "
-        "together "
-        "predict readings that were left out: {}",
+        "together predict readings that were left out: {}",
         fmt::join(d.background, ", "));
 }
 

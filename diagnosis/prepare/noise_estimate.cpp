@@ -322,7 +322,8 @@ NoiseModel noise_from_repeats(const RepeatedRows& rows, const Eigen::VectorXd& r
         const auto count = static_cast<double>(values_of(list).size());
         noise.of(device).scale = std::max(noise.of(device).scale, digit);
         const double independent = noise.of(device).independent(count);
-        // A variance of few differences is far too small more often than the square root says.
+        // A variance of few differences is far too small more often than the square root says
+        // (assumed).
         const double skew = few ? 1.5 : 1.0;
         noise.doubt = std::max(noise.doubt, skew * std::sqrt(2.0 / independent));
     }

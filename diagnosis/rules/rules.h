@@ -64,10 +64,11 @@ constexpr double least_rms = 0.7;     ///< ... unless they move the readings by 
 constexpr double most_own = 3.0;      ///< maximum squared sum of contributions that cancel
 constexpr double main_family = 0.6;   ///< share of an axis's free forms; if smaller, none is named
 
-constexpr double background_t = 1.0;   ///< of what small errors of all axes save together: none of
-                                       ///< them is a cause, and each has the size that is seen
+/// t statistic of what small errors of all axes save together: none of them is a cause, and each
+/// has the size that is seen (assumed).
+constexpr double background_t = 1.0;
 constexpr double size_of_noise = 0.5;  ///< nats: more than the size of an error that is not there
-                                       ///< gains on average
+                                       ///< gains on average (assumed)
 constexpr double enormous = 30.0;  ///< typical sizes: a cause beyond is not written unless claimed
                                    ///< (assumed)
 

@@ -27,7 +27,7 @@ struct SearchSetting {
     std::function<std::optional<std::size_t>(const Model& model, std::size_t position)> refine = {};
     /// Asked at each step: false ends the search with the best model so far. Empty: never.
     std::function<bool()> go_on = {};
-    /// Beside forms of every axis some 20 errors may be seen at once.
+    /// Beside forms of every axis some 20 errors may be seen at once (assumed).
     std::size_t most_members = 24;
     /// A model does not grow further if even as many steps as are left, each with the gain of the
     /// last one, would not reach this score.

