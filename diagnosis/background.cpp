@@ -4,6 +4,7 @@
 #include <set>
 #include <tuple>
 
+#include "diagnosis/measured_places.h"
 #include "diagnosis/rules/rules.h"
 #include "diagnosis/search/left_out.h"
 #include "diagnosis/written_candidates.h"
@@ -38,8 +39,15 @@ bool has_member(const Model& model, std::size_t group) {
 std::vector<std::size_t> lacking(const Outcome& f, const Model& model) {
     const Design& design = f.design;
     std::set<std::tuple<GroupKind, std::string>> seen;
-    for (const std::size_t m : model.members)
-        seen.emplace(design.group(m).kind, design.group(m).name);
+    for (const std::size_t m : model.members) {
+        const ColumnGroup& group = design.group(m);
+        seen.emplace(group.kind, group.name);
+        // Written as values at places, it leaves no room for a curve between them.
+        if (is_ripple_of_places(f, m))
+            seen.emplace(GroupKind::table,
+                         effects::effect_name(group.name.substr(0, group.name.find('.')),
+                                              effects::EffectKind::positioning));
+    }
     std::vector<std::size_t> list;
     for (std::size_t k = 0; k < design.groups().size(); ++k) {
         const Design::Entry& entry = design.groups()[k];

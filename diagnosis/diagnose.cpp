@@ -11,6 +11,7 @@
 #include "diagnosis/diagnosis_report.h"
 #include "diagnosis/groups/open_sides.h"
 #include "diagnosis/mistaken_table.h"
+#include "diagnosis/prepare/agreeing_visits.h"
 #include "diagnosis/prepare/copies.h"
 #include "diagnosis/prepare/outliers.h"
 #include "diagnosis/prepare/spoiled_readings.h"
@@ -166,8 +167,12 @@ bool corrected(Prepared& p, Searched& s, Round& round) {
     const bool assumed = round.noise.model.source == NoiseSource::assumed;
     const double least = assumed ? std::min(1.0, s.model.variances.nu) : 1.0;
     const Eigen::VectorXd digit = last_digit(p.rounding_mm, p.base.sigma_mm);
-    const auto wild = wild_readings(
-        {sizes.remainder.head(left.size()) / least, digit, devices_of(p.replay)}, round.used);
+    const Eigen::VectorXd rest = sizes.remainder.head(left.size()) / least;
+    const auto wild = without_agreeing(
+        p, round.used,
+        wild_readings({rest, digit, devices_of(p.replay)}, round.used,
+                      rules::most_outliers * static_cast<double>(round.used.size())),
+        rest);
     if (!wild.empty()) {
         leave_out(p, wild, round);
         changed = true;

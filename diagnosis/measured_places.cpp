@@ -32,9 +32,58 @@ bool holds_at_places_of_turn(const Outcome& f, const ColumnGroup& own) {
     return true;
 }
 
+/// True where all that sees an axis reads it at targets, not on its way.
+bool is_read_at_targets(const Prepared& p, Axis axis) {
+    const std::vector<bool> sees = sees_moves(p, axis);
+    for (std::size_t i = 0; i < p.replay.size(); ++i) {
+        const records::Device device = p.replay.contact(i).device;
+        if (sees[i] && device != records::Device::linear && device != records::Device::point &&
+            device != records::Device::angle)
+            return false;
+    }
+    return true;
+}
+
+/// True where the curve of the positioning of an axis is needed between the places: the setup has
+/// one, or a table that holds between them explains more than the ripple `position`.
+bool needs_curve(const Outcome& f, const kinematics::AxisGeometry& axis, std::size_t position) {
+    const auto along =
+        static_cast<std::size_t>(effects::main_direction(axis) + (axis.rotary ? 3 : 0));
+    const auto& errors = f.prepared.base.setup.machine.errors.axis[index_of(axis.axis)];
+    if (!errors.motion[along].at.empty()) return true;
+    const Eigen::MatrixXd parts = contributions(f.design, f.model, fit_of(f.design, f.model));
+    const auto square = [&](std::size_t k) {
+        return parts.col(static_cast<Eigen::Index>(k)).squaredNorm();
+    };
+    for (std::size_t k = 0; k < f.model.members.size(); ++k) {
+        const ColumnGroup& other = f.design.group(f.model.members[k]);
+        if (other.kind == GroupKind::table && !other.table.play &&
+            other.table.motion == effects::EffectKind::positioning &&
+            other.table.axis.axis == axis.axis && f.judgement.interpolates[k] &&
+            square(k) > square(position))
+            return true;
+    }
+    return false;
+}
+
 }  // namespace
 
+bool is_ripple_of_places(const Outcome& f, std::size_t group) {
+    const ColumnGroup& own = f.design.group(group);
+    const auto at = std::find(f.model.members.begin(), f.model.members.end(), group);
+    if (own.kind != GroupKind::periodic || own.is_change() || at == f.model.members.end() ||
+        own.effect->kind != effects::EffectKind::cyclic)
+        return false;
+    const auto position = static_cast<std::size_t>(at - f.model.members.begin());
+    const kinematics::AxisGeometry& axis =
+        *f.prepared.base.setup.machine.chain.find(*own.effect->axis);
+    return !f.judgement.equal_periods[position].empty() &&
+           std::abs(axis.direction(effects::main_direction(axis))) > 1.0 - 1e-12 &&
+           !needs_curve(f, axis, position) && is_read_at_targets(f.prepared, axis.axis);
+}
+
 bool holds_at_places(const Outcome& f, std::size_t group) {
+    if (is_ripple_of_places(f, group)) return true;
     const ColumnGroup& own = f.design.group(group);
     const auto at = std::find(f.model.members.begin(), f.model.members.end(), group);
     if (own.kind != GroupKind::table || at == f.model.members.end()) return false;

@@ -13,6 +13,7 @@
 #include "diagnosis/groups/ripples.h"
 #include "diagnosis/prepare/both_sides.h"
 #include "diagnosis/prepare/near_readings.h"
+#include "diagnosis/refined_keys.h"
 #include "diagnosis/rules/rules.h"
 #include "diagnosis/search/solution.h"
 #include "diagnosis/search/whole_drivers.h"
@@ -114,42 +115,6 @@ void add_keyed(Design& design, const Prepared& p, const Whitener& whitener,
     }
 }
 
-/// A group with the keys of one member refined on the residual of the other causes.
-std::optional<std::size_t> refined_group(Design& design, const Prepared& p,
-                                         const Whitener& whitener, const Model& model,
-                                         std::size_t position) {
-    const ColumnGroup group = design.group(model.members[position]);
-    const Model rest = without(model, position);
-    return add_ripple_or_other(design, p, whitener, *group.effect,
-                               identification::refine_keys(p.replay, p.base, *group.effect,
-                                                           group.keys, rest_of(p, design, rest)));
-}
-
-Model without_drivers(const Design& design, Model model) {
-    for (std::size_t k = model.members.size(); k-- > 0;)
-        if (design.group(model.members[k]).kind == GroupKind::driver) model = without(model, k);
-    return model;
-}
-
-/// Refines the keys of members, and grows the model again from there. Drivers are excluded
-/// meanwhile, because they would absorb the residual of a wrong key and conceal it. Returns the
-/// better model.
-Model with_refined_keys(Design& design, const SearchSetting& setting, const Prepared& p,
-                        const Whitener& whitener, Model model) {
-    Model trial = without_drivers(design, model);
-    bool changed = false;
-    for (std::size_t k = 0; k < trial.members.size(); ++k) {
-        if (design.group(trial.members[k]).kind != GroupKind::periodic) continue;
-        const auto better = refined_group(design, p, whitener, trial, k);
-        if (!better) continue;
-        trial.members[k] = *better;
-        changed = true;
-    }
-    if (!changed) return model;
-    trial = grown(design, setting, tuned(design, setting, std::move(trial), 2));
-    return trial.score > model.score ? trial : model;
-}
-
 /// Adds ripples of an axis in place of its free-form positioning error, which may imitate them,
 /// alone and together with its scale.
 void add_ripples_instead(Design& design, const Prepared& p, const Whitener& whitener, Rests& rests,
@@ -195,6 +160,25 @@ void add_keyed_instead(Design& design, const Prepared& p, const Whitener& whiten
                                                      std::move(keyed.keys), rest.mm);
         add_keyed(design, p, whitener, list, rest.mm);
     }
+}
+
+/// Where a play along the travel was found: the model with keyed effects in place of all free forms
+/// of positions and plays, if it is better. A spike at the reversals beside a lag or a play looks
+/// like several of these, and its keys, sought beside them, are those of what they leave.
+Model with_keys_for_plays(const KeyedDesign& keyed, const SearchSetting& setting, Rests& rests,
+                          Model model) {
+    const auto& [design, p, whitener] = keyed;
+    if (std::none_of(model.members.begin(), model.members.end(),
+                     [&](std::size_t m) { return design.group(m).table.play != nullptr; }))
+        return model;
+    Model trial = tuned(design, setting, without_forms_along(design, model), 2);
+    const identification::KeyGain gain = gain_beside(keyed, trial);
+    for (KeyedEffect& found : promising(p, rests.keys(), rests.of(trial).remainder, 1))
+        add_ripple_or_other(
+            design, p, whitener, *found.effect,
+            identification::refine_keys(gain, *found.effect, std::move(found.keys)));
+    trial = with_refined_keys(keyed, setting, grown(design, setting, std::move(trial)));
+    return trial.score > model.score ? trial : model;
 }
 
 /// The members of an earlier round in a new design; searched keys are added again.
@@ -306,7 +290,7 @@ Searched search_of(const Prepared& p, const Round& round, KeySearch& keys, const
     SearchSetting setting = search_setting(design, round.noise.prior);
     setting.go_on = go_on;
     setting.refine = [&](const Model& m, std::size_t position) {
-        return refined_group(design, p, whitener, m, position);
+        return refined_group({design, p, whitener}, m, position);
     };
     Rests rests(p, design, keys);
     Model model;
@@ -319,7 +303,9 @@ Searched search_of(const Prepared& p, const Round& round, KeySearch& keys, const
     }
     for (int pass = 0; pass < 2 && !setting.stopped(); ++pass) {
         const double before = model.score;
-        model = with_refined_keys(design, setting, p, whitener, std::move(model));
+        model = with_refined_keys({design, p, whitener}, setting, std::move(model));
+        if (pass == 0)
+            model = with_keys_for_plays({design, p, whitener}, setting, rests, std::move(model));
         const Rests::Rest rest = rests.of(model);
         add_keyed(design, p, whitener, promising(p, keys, rest.remainder, 1), rest.mm);
         add_ripples_instead(design, p, whitener, rests, model);

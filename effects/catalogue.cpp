@@ -10,9 +10,9 @@ namespace {
 
 using AxisMaker = Effect (*)(const kinematics::AxisGeometry&);
 
-constexpr AxisMaker rotary_effects[] = {rotary_zero,    rotary_positioning, rotary_cyclic,
-                                        rotary_radial,  rotary_axial,       rotary_tilt,
-                                        rotary_backlash};
+constexpr AxisMaker rotary_effects[] = {rotary_zero,     rotary_positioning,   rotary_cyclic,
+                                        rotary_radial,   rotary_axial,         rotary_tilt,
+                                        rotary_backlash, rotary_reversal_spike};
 constexpr AxisMaker linear_effects[] = {
     linear_scale,    linear_straightness,   linear_angular,      linear_cyclic,
     linear_backlash, linear_reversal_spike, linear_lateral_play, linear_play_load};

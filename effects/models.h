@@ -31,6 +31,7 @@ Effect rotary_radial(const kinematics::AxisGeometry& axis);
 Effect rotary_axial(const kinematics::AxisGeometry& axis);
 Effect rotary_tilt(const kinematics::AxisGeometry& axis);
 Effect rotary_backlash(const kinematics::AxisGeometry& axis);
+Effect rotary_reversal_spike(const kinematics::AxisGeometry& axis);
 Effect linear_scale(const kinematics::AxisGeometry& axis);
 Effect linear_straightness(const kinematics::AxisGeometry& axis);
 Effect linear_angular(const kinematics::AxisGeometry& axis);

@@ -1,8 +1,9 @@
-// Angular errors of a rotary axis: zero offset, positioning, gear error, backlash.
+// Angular errors of a rotary axis: zero offset, positioning, gear error, backlash, wind-up.
 #include <cmath>
 
 #include "base/units.h"
 #include "effects/models.h"
+#include "records/travel.h"
 
 namespace trunnion::effects {
 namespace {
@@ -83,6 +84,32 @@ Effect rotary_backlash(const kinematics::AxisGeometry& axis) {
         [k = axis.axis](const AxisSample& sample, const emulator::Contact&,
                         std::span<const double> value, kinematics::Perturbation& out) {
             out.axis[k] += 0.5 * value[0] * sample.travel[index_of(k)];
+        },
+        SeenBy::scale};
+}
+
+Effect rotary_reversal_spike(const kinematics::AxisGeometry& axis) {
+    return {
+        identity_of(axis, EffectKind::reversal_spike),
+        "The axis lags when it turns round, and catches up over some degrees",
+        "friction that winds up the gear, a belt or a long shaft behind the encoder",
+        "look for friction in bearing, seal and clamp; stiffen the drive, or read the table itself "
+        "with a direct encoder",
+        "angle - height_rad * sign of travel * exp(-way / decay_rad); way: the angle since "
+        "reversal",
+        {{"height_rad", "rad", 40e-6, -1, {}, true},
+         {"decay_rad",
+          "rad",
+          0.1,
+          -1,
+          {0.001, 0.003, 0.01, 0.03, 0.06, 0.12, 0.25, 0.5, 1.0},
+          true}},
+        [k = axis.axis](const AxisSample& sample, const emulator::Contact&,
+                        std::span<const double> value, kinematics::Perturbation& out) {
+            const std::size_t i = index_of(k);
+            const double way_rad = sample.since_reversal[i];
+            if (way_rad >= records::no_reversal_seen) return;
+            out.axis[k] -= value[0] * sample.travel[i] * std::exp(-way_rad / value[1]);
         },
         SeenBy::scale};
 }

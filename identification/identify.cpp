@@ -94,11 +94,9 @@ std::pair<double, double> around_highest_peak(const std::function<double(double)
 
 }  // namespace
 
-std::vector<double> refine_keys(const emulator::Replay& replay, const BaseModel& base,
-                                const effects::Effect& effect, std::vector<double> keys,
-                                const Eigen::VectorXd& left_mm) {
+std::vector<double> refine_keys(const KeyGain& gain, const effects::Effect& effect,
+                                std::vector<double> keys) {
     constexpr double golden = 0.6180339887498949;
-    const KeyGain gain(replay, base, left_mm);
     double best = gain(effect, keys);
     for (std::size_t j = 0; j < keys.size(); ++j) {
         const effects::EffectParameter& p = effect.parameters[j];
@@ -110,8 +108,8 @@ std::vector<double> refine_keys(const emulator::Replay& replay, const BaseModel&
         };
         for (int round = 0; round < 4; ++round) {
             const auto [from, to] = neighbours(p.grid, keys[j]);
-            auto [low, high] =
-                around_highest_peak(at, {from, to}, turns_between(replay, effect, {from, to}));
+            auto [low, high] = around_highest_peak(
+                at, {from, to}, turns_between(gain.replay(), effect, {from, to}));
             double a = high - golden * (high - low), b = low + golden * (high - low);
             double fa = at(a), fb = at(b);
             for (int step = 0; step < 14; ++step) {
@@ -137,6 +135,12 @@ std::vector<double> refine_keys(const emulator::Replay& replay, const BaseModel&
         keys[j] = middle_of_plateau(at, keys[j], neighbours(p.grid, keys[j]));
     }
     return keys;
+}
+
+std::vector<double> refine_keys(const emulator::Replay& replay, const BaseModel& base,
+                                const effects::Effect& effect, std::vector<double> keys,
+                                const Eigen::VectorXd& left_mm) {
+    return refine_keys(KeyGain(replay, base, left_mm), effect, std::move(keys));
 }
 
 std::vector<double> search_keys(const emulator::Replay& replay, const BaseModel& base,

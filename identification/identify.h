@@ -5,6 +5,7 @@
 
 #include "base/finite.h"
 #include "identification/base_model.h"
+#include "identification/key_gain.h"
 
 namespace trunnion::identification {
 
@@ -34,8 +35,11 @@ struct Identification {
 Identification identify(const setup::Setup& setup, const records::ReadingTable& table,
                         std::vector<std::string> effects, const std::function<bool()>& go_on = {});
 
-/// Refines the keys of an effect, starting from `keys`, so that together with the base columns it
-/// explains the most of `left_mm`. Golden-section search, one key after the other.
+/// Refines the keys of an effect, starting from `keys`, so that it explains the most.
+/// Golden-section search, one key after the other.
+std::vector<double> refine_keys(const KeyGain& gain, const effects::Effect& effect,
+                                std::vector<double> keys);
+/// ... of `left_mm`, together with the base columns.
 std::vector<double> refine_keys(const emulator::Replay& replay, const BaseModel& base,
                                 const effects::Effect& effect, std::vector<double> keys,
                                 const Eigen::VectorXd& left_mm);

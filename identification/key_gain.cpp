@@ -7,15 +7,22 @@ namespace {
 /// less than this number of sigma is unobservable (the threshold of solve_ranked).
 constexpr double unseen_sigma = 0.05;
 
+Eigen::MatrixXd joined(const Eigen::MatrixXd& base, const Eigen::MatrixXd& beside) {
+    if (beside.cols() == 0) return base;
+    Eigen::MatrixXd all(base.rows(), base.cols() + beside.cols());
+    all << base, beside;
+    return all;
+}
+
 }  // namespace
 
 KeyGain::KeyGain(const emulator::Replay& replay, const BaseModel& base,
-                 const Eigen::VectorXd& left_mm)
+                 const Eigen::VectorXd& left_mm, const Eigen::MatrixXd& beside_mm)
     : replay_(replay),
       base_(base),
       weight_(base.sigma_mm.cwiseInverse()),
       left_(left_mm.cwiseProduct(weight_)),
-      known_(weight_.asDiagonal() * base.columns) {}
+      known_(weight_.asDiagonal() * joined(base.columns, beside_mm)) {}
 
 double KeyGain::operator()(const std::vector<KeyedEffect>& effects) const {
     std::vector<Eigen::VectorXd> list;

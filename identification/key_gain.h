@@ -18,10 +18,14 @@ struct KeyedEffect {
 
 /// Reduction of the weighted squared sum of `left_mm` (dimensionless: rows divided by their sigma)
 /// when effects with given keys are added to the base in the fit, with free values of their other
-/// parameters. `replay` and `base` must outlive it.
+/// parameters. `beside_mm`: further columns that are fitted with the base, or none. `replay` and
+/// `base` must outlive it.
 class KeyGain {
   public:
-    KeyGain(const emulator::Replay& replay, const BaseModel& base, const Eigen::VectorXd& left_mm);
+    KeyGain(const emulator::Replay& replay, const BaseModel& base, const Eigen::VectorXd& left_mm,
+            const Eigen::MatrixXd& beside_mm = {});
+
+    const emulator::Replay& replay() const { return replay_; }
 
     /// Uses the keys in `values`; other values are ignored.
     double operator()(const std::vector<KeyedEffect>& effects) const;

@@ -225,9 +225,9 @@ std::vector<double> targets_of(const Prepared& p, const std::vector<double>& pla
     return again && targets.size() <= most_targets ? targets : std::vector<double>{};
 }
 
-/// An error along the axis with a value of its own at each target.
+/// An error with a value of its own at each target; a play has one where both sides are seen.
 bool has_targets(const Prepared& p, const Family& family, const TableForm& table) {
-    return family.along && family.motion == EffectKind::positioning &&
+    return family.motion != EffectKind::backlash &&
            table.knots == targets_of(p, places_of(p, table.axis.axis));
 }
 
@@ -267,10 +267,8 @@ TableForm form_of(const Prepared& p, const Family& family, const kinematics::Axi
             (sensor ? last_of_sensor(places) : std::min(last, last_on_grid(places))) - family.owned;
     } else {
         table.knots = estimation::knots_of(places, family.knots);
-        if (family.along &&
-            (family.motion == EffectKind::positioning || family.motion == EffectKind::backlash))
-            if (auto targets = targets_of(p, places); !targets.empty())
-                table.knots = std::move(targets);
+        if (auto targets = targets_of(p, places); !targets.empty())
+            table.knots = std::move(targets);
     }
     return table;
 }

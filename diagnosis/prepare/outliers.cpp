@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "diagnosis/prepare/agreeing_visits.h"
 #include "diagnosis/rules/rules.h"
 #include "estimation/distributions.h"
 #include "estimation/projection.h"
@@ -160,15 +161,23 @@ std::vector<std::size_t> lone_probe_readings(const Prepared& prepared,
         if (too_many(lone.size(), used.size())) return {};
     }
     std::sort(lone.begin(), lone.end());
-    const bool keep = crowded(lone, devices_of(prepared.replay)) || crowded(lone, prepared.blocks);
-    return keep ? std::vector<std::size_t>{} : lone;
+    if (crowded(lone, devices_of(prepared.replay)) || crowded(lone, prepared.blocks)) return {};
+    return without_agreeing(prepared, used, std::move(lone),
+                            prepared.base.residual_mm.cwiseQuotient(prepared.base.sigma_mm));
 }
 
 Eigen::VectorXd last_digit(const Eigen::VectorXd& rounding_mm, const Eigen::VectorXd& sigma_mm) {
     return std::sqrt(12.0) * rounding_mm.cwiseQuotient(sigma_mm);
 }
 
-std::vector<std::size_t> wild_readings(const NoisyResiduals& rows, const std::vector<bool>& used) {
+double most_by_chance(std::size_t readings) {
+    constexpr double deviations = 2.0;  // of the number of rare events
+    const double expected = rules::most_outliers * static_cast<double>(readings);
+    return expected + deviations * std::sqrt(expected);
+}
+
+std::vector<std::size_t> wild_readings(const NoisyResiduals& rows, const std::vector<bool>& used,
+                                       double most) {
     const auto size_of = [&](std::size_t i) {
         return std::abs(rows.left(static_cast<Eigen::Index>(i)));
     };
@@ -181,15 +190,13 @@ std::vector<std::size_t> wild_readings(const NoisyResiduals& rows, const std::ve
     for (std::size_t i = 0; i < used.size(); ++i)
         if (used[i] && size_of(i) > limit + rows.digit(static_cast<Eigen::Index>(i)))
             wild.push_back(i);
-    const bool keep = too_many(wild.size(), used.size()) || crowded(wild, rows.devices);
+    const bool keep = static_cast<double>(wild.size()) > most || crowded(wild, rows.devices);
     return keep ? std::vector<std::size_t>{} : wild;
 }
 
 bool are_spoiled(const std::vector<bool>& used) {
-    constexpr double deviations = 2.0;  // of the number of rare events
-    const double expected = rules::most_outliers * static_cast<double>(used.size());
     const auto count = static_cast<double>(std::count(used.begin(), used.end(), false));
-    return count > expected + deviations * std::sqrt(expected);
+    return count > most_by_chance(used.size());
 }
 
 bool are_along_one(const std::vector<bool>& used, const emulator::Replay& replay) {

@@ -27,8 +27,14 @@ struct NoisyResiduals {
     std::vector<records::Device> devices;
 };
 
-/// Readings of `used` far from the prediction of a model, by the same rule.
-std::vector<std::size_t> wild_readings(const NoisyResiduals& rows, const std::vector<bool>& used);
+/// How many of so many readings may be spoiled beside chance: 4 % and two deviations of that
+/// number.
+double most_by_chance(std::size_t readings);
+
+/// Readings of `used` far from the prediction of a model, by the same rule; none if they are more
+/// than `most`.
+std::vector<std::size_t> wild_readings(const NoisyResiduals& rows, const std::vector<bool>& used,
+                                       double most);
 
 /// True for more spoiled readings than an instrument has (4 %), beyond chance: of 60 readings more
 /// than five, of 2,000 more than 97. Then there is a gap of some kind.

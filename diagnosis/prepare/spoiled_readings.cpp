@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "diagnosis/prepare/agreeing_visits.h"
 #include "diagnosis/prepare/outliers.h"
 #include "diagnosis/rules/rules.h"
 #include "estimation/quantiles.h"
@@ -29,19 +30,6 @@ Eigen::VectorXd left_by(const LinearModel& model, const std::vector<bool>& used)
     left(rows) = estimation::trimmed_residual(model.columns(rows, Eigen::all), data, data,
                                               rules::most_doubtful);
     return left;
-}
-
-/// Number of the visit of each row: readings at one position of the axes, one after the other.
-std::vector<std::size_t> visits_of(const emulator::Replay& replay) {
-    std::vector<std::size_t> visit(replay.size(), 0);
-    for (std::size_t i = 1; i < replay.size(); ++i) {
-        const AxisPositions &now = replay.sample(i).position,
-                            &before = replay.sample(i - 1).position;
-        const bool moved = std::any_of(all_axes.begin(), all_axes.end(),
-                                       [&](Axis axis) { return now[axis] != before[axis]; });
-        visit[i] = visit[i - 1] + (moved ? 1 : 0);
-    }
-    return visit;
 }
 
 /// True when the visits with these rows follow one another: more than two spoiled ones rarely do.
@@ -72,20 +60,20 @@ DoubtfulReadings doubtful_readings(const Prepared& prepared, const LinearModel& 
     std::iota(rows.begin(), rows.end(), std::size_t{0});
     std::erase_if(rows, [&](std::size_t i) { return !taken(i); });
     if (rows.empty()) return {};
-    const Eigen::VectorXd left = left_by(model, used).cwiseAbs();
+    const Eigen::VectorXd left = left_by(model, used);
     std::vector<double> size;
-    for (const std::size_t i : rows) size.push_back(left(static_cast<Eigen::Index>(i)));
+    for (const std::size_t i : rows) size.push_back(std::abs(left(static_cast<Eigen::Index>(i))));
     DoubtfulReadings doubtful;
     doubtful.usual = std::max(prepared.base.noise_given ? least_scale : least_assumed,
                               estimation::robust_deviation(std::move(size)));
     const Eigen::VectorXd digit = last_digit(prepared.rounding_mm, prepared.base.sigma_mm);
-    for (const std::size_t i : rows) {
+    std::erase_if(rows, [&](std::size_t i) {
         const auto at = static_cast<Eigen::Index>(i);
-        const double own = left(at);
-        if (own <= far_off * doubtful.usual + digit(at)) continue;
-        doubtful.rows.push_back(i);
-        doubtful.largest = std::max(doubtful.largest, own);
-    }
+        return std::abs(left(at)) <= far_off * doubtful.usual + digit(at);
+    });
+    doubtful.rows = without_agreeing(prepared, used, std::move(rows), left);
+    for (const std::size_t i : doubtful.rows)
+        doubtful.largest = std::max(doubtful.largest, std::abs(left(static_cast<Eigen::Index>(i))));
     const std::vector<std::size_t> visit = visits_of(replay);
     doubtful.all_visits = visit.empty() ? 0 : visit.back() + 1;
     std::size_t last = doubtful.all_visits;

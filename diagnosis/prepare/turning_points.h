@@ -14,10 +14,10 @@ struct WithoutTurningPoints {
 };
 
 /// The table without the readings of a ballbar or a servo log at rows where an axis stands exactly
-/// at its turning point (every 90 degrees of a circle). An axis with play has not crossed its gap
-/// there, or has: the row does not tell, and a few readings that are half a gap off look like a
-/// spike or a form. Their positions stay. Empty without such readings, or where they are more than
-/// a quarter (a coarse circle).
+/// at its turning point (every 90 degrees of a circle), also at the first row of a test. An axis
+/// with play has not crossed its gap there, or has: the row does not tell, and a few readings that
+/// are half a gap off look like a spike or a form. Their positions stay. Empty without such
+/// readings, or where they are more than a quarter (a coarse circle).
 std::optional<WithoutTurningPoints> without_turning_points(const records::ReadingTable& table);
 
 }  // namespace trunnion::diagnosis

@@ -10,8 +10,8 @@ constexpr double effect_prior = -3.2188758248682006;  ///< ln 0.04: a catalogue 
 constexpr double gain_prior = -5.521460917862246;     ///< ln 0.004: a wrong gain of the instrument,
                                                       ///< which is calibrated, or of all scales
                                                       ///< alike (assumed)
-/// Angular errors that the readings show as positioning, straightness and squareness alone: on one
-/// line these are their names (ISO 230-1).
+/// Angular errors that the readings may show as positioning, straightness and squareness alone: on
+/// one line these are their names (ISO 230-1).
 constexpr double by_an_arm = -0.7;  // ln 0.5
 /// Forms that are rivals only: angles with a bow about one line, the slope of a straightness.
 constexpr double unnamed_form = -1.4;  // ln 0.25

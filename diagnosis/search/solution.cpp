@@ -3,7 +3,9 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <map>
 
+#include "diagnosis/prepare/places.h"
 #include "diagnosis/rules/rules.h"
 
 namespace trunnion::diagnosis {
@@ -15,15 +17,22 @@ kinematics::ErrorCurve::Harmonic& harmonic_of(kinematics::ErrorCurve& curve, dou
     return curve.harmonics.emplace_back(kinematics::ErrorCurve::Harmonic{order, 0.0, 0.0});
 }
 
+/// The table of a curve, without its harmonics and slope.
+kinematics::ErrorCurve table_of(const kinematics::ErrorCurve& curve) {
+    kinematics::ErrorCurve table;
+    table.at = curve.at;
+    table.value = curve.value;
+    table.interpolation = curve.interpolation;
+    return table;
+}
+
 /// The sum of two tables has the positions of both.
 void add_table(kinematics::ErrorCurve& curve, const std::vector<double>& at,
                const Eigen::VectorXd& value) {
-    kinematics::ErrorCurve own, old;
+    const kinematics::ErrorCurve old = table_of(curve);
+    kinematics::ErrorCurve own;
     own.at = at;
     own.value.assign(value.begin(), value.end());
-    old.at = curve.at;
-    old.value = curve.value;
-    old.interpolation = curve.interpolation;
     std::vector<double> places = at;
     places.insert(places.end(), old.at.begin(), old.at.end());
     std::sort(places.begin(), places.end());
@@ -33,17 +42,55 @@ void add_table(kinematics::ErrorCurve& curve, const std::vector<double>& at,
     for (const double q : places) curve.value.push_back(own(q) + (old.at.empty() ? 0.0 : old(q)));
 }
 
-/// A table that holds at its positions alone needs an empty curve.
-void set_places(kinematics::ErrorCurve& curve, const std::vector<double>& at,
+/// A table that holds at its positions alone. A curve that holds between its own ones has values at
+/// these positions then, too.
+void add_places(kinematics::ErrorCurve& curve, const std::vector<double>& at,
                 const Eigen::VectorXd& value) {
-    curve.at = at;
-    curve.value.assign(value.begin(), value.end());
+    constexpr double same = 1e-6;  // of the range
+    const double near = same * (at.back() - at.front());
+    const kinematics::ErrorCurve old = table_of(curve);
+    const bool is_curve =
+        !old.at.empty() && old.interpolation != kinematics::ErrorCurve::Interpolation::none;
+    std::map<double, double> places;
+    if (!is_curve)
+        for (std::size_t k = 0; k < old.at.size(); ++k) places[old.at[k]] = old.value[k];
+    for (std::size_t k = 0; k < at.size(); ++k) {
+        const auto place = places.lower_bound(at[k] - near);
+        const bool meets = place != places.end() && place->first <= at[k] + near;
+        (meets ? place->second : places[at[k]]) +=
+            value(static_cast<Eigen::Index>(k)) + (is_curve ? old(at[k]) : 0.0);
+    }
+    curve.at.clear();
+    curve.value.clear();
+    for (const auto& [q, too_far] : places) {
+        curve.at.push_back(q);
+        curve.value.push_back(too_far);
+    }
     curve.interpolation = kinematics::ErrorCurve::Interpolation::none;
+}
+
+/// A ripple as its values at the places that were read: its other periods have the
+/// same there.
+void add_ripple_at_places(setup::Setup& setup, const Prepared& prepared, const ColumnGroup& group,
+                          const std::vector<double>& values) {
+    const kinematics::AxisGeometry& axis = *setup.machine.chain.find(*group.effect->axis);
+    const int along = effects::main_direction(axis);
+    const std::vector<double> at = positions_at(telling_places(prepared, axis.axis));
+    Eigen::VectorXd too_far(static_cast<Eigen::Index>(at.size()));
+    for (std::size_t k = 0; k < at.size(); ++k) {
+        AxisSample sample;
+        sample.position[axis.axis] = at[k];
+        kinematics::Perturbation out;
+        group.effect->add(sample, {}, values, out);
+        too_far(static_cast<Eigen::Index>(k)) = axis.direction(along) * out.axis[axis.axis];
+    }
+    const auto motion = static_cast<std::size_t>(along + (axis.rotary ? 3 : 0));
+    add_places(setup.machine.errors.axis[index_of(axis.axis)].motion[motion], at, too_far);
 }
 
 void add_free_form(setup::Setup& setup, const ColumnGroup& group,
                    const Eigen::VectorXd& coefficients, bool at_places) {
-    const auto add_knots = at_places ? set_places : add_table;
+    const auto add_knots = at_places ? add_places : add_table;
     const Eigen::VectorXd value = table_values(group, coefficients);
     const Eigen::Index each = group.table.per_direction();
     auto& motion = setup.machine.errors.axis[index_of(group.table.axis.axis)].motion;
@@ -220,13 +267,22 @@ setup::Setup setup_with(const Prepared& prepared, const Design& design, const Mo
     for (std::size_t k = 0; k < model.members.size(); ++k) {
         const ColumnGroup& group = design.group(model.members[k]);
         const Eigen::VectorXd own = solution.mean.segment(solution.first[k], solution.size[k]);
+        const bool here_only = !at_places.empty() && at_places[k];
         if (group.kind == GroupKind::table)
-            add_free_form(setup, group, own, !at_places.empty() && at_places[k]);
+            add_free_form(setup, group, own, here_only);
+        else if (here_only)
+            continue;  // after the curves
         else if (group.effect && joins_table(design, model, group))
             add_angle(setup, *setup.machine.chain.find(*group.effect->axis), values_in(group, own));
         else if (group.effect)
             identification::add_effect(setup, *group.effect, values_in(group, own));
     }
+    for (std::size_t k = 0; k < at_places.size(); ++k)
+        if (const ColumnGroup& group = design.group(model.members[k]);
+            at_places[k] && group.kind != GroupKind::table)
+            add_ripple_at_places(
+                setup, prepared, group,
+                values_in(group, solution.mean.segment(solution.first[k], solution.size[k])));
     identification::keep_sessions(setup, prepared.replay);
     return setup;
 }

@@ -56,8 +56,10 @@ class Weights {
     void add(const Model& model, double lost, std::vector<double>& list) const {
         const double freedom = std::max(1.0, search_.design.freedom());
         if (lost > 0.0 && 0.5 * freedom * std::log1p(2.0 * lost / freedom) > most_lost) return;
-        list.push_back(evidence(search_.design, tuned(search_.design, search_.setting, model, 1)) -
-                       chosen_);
+        const double nats =
+            evidence(search_.design, tuned(search_.design, search_.setting, model, 1)) - chosen_;
+        // Sizes at which no likelihood can be computed are those of no rival.
+        if (std::isfinite(nats) || !std::isfinite(chosen_)) list.push_back(nats);
     }
 
   private:

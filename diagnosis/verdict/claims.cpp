@@ -271,9 +271,20 @@ bool stands_apart(const Design& design, const Model& model, std::size_t position
     return design.outside(model.members[position], {others.begin(), others.end()}) >= least_outside;
 }
 
+/// True where all that is left beyond the noise is little beside the squares of a cause. The
+/// correction of a wrong form leaves more: that form differs from the true one in its own way.
+bool leaves_no_more(const Sizes& sizes, double square) {
+    constexpr double little = 0.02;  // assumed
+    const auto rows = static_cast<double>(sizes.remainder.size());
+    const double beyond = std::max(0.0, sizes.remainder.squaredNorm() - sizes.floor * rows) +
+                          2.0 * std::sqrt(2.0 * rows) * sizes.floor;
+    return beyond <= little * square;
+}
+
 /// True for a cause that takes back what the others do: the correction of a form that is not
-/// theirs. A small one of known form may be against a large one by chance, or by its nature, as a
-/// play that runs ahead is against a lag: it is no correction where the others cannot do its work.
+/// theirs. One of known form may be against another by chance, or by its nature, as a play that
+/// runs ahead is against a lag: it is no correction where the others cannot do its work, if it is
+/// small beside them or leaves nothing.
 bool works_against_others(const Design& design, const Model& model, const Sizes& sizes,
                           std::size_t position) {
     constexpr double by_chance = -0.3;  // cosine between both
@@ -289,7 +300,8 @@ bool works_against_others(const Design& design, const Model& model, const Sizes&
     if (own.squaredNorm() + along > 0.0) return false;  // with its other forms it does something
     if (group.kind == GroupKind::table) return true;
     return along < by_chance * own.norm() * others.norm() &&
-           (own.squaredNorm() > small * others.squaredNorm() ||
+           ((own.squaredNorm() > small * others.squaredNorm() &&
+             !leaves_no_more(sizes, own.squaredNorm())) ||
             !stands_apart(design, model, position));
 }
 
