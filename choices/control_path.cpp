@@ -88,7 +88,8 @@ class PathSink : public motion::MotionSink {
             add(m, block, {middle, part.end}, halved + 1);
             return;
         }
-        path_.nodes.push_back({place(m, part.end), block, part.end == 1.0});
+        path_.nodes.push_back(
+            {place(m, part.end), block, part.end == 1.0, m.kind == motion::MotionKind::rapid});
     }
 
     bool is_halved(const motion::AxisMove& m, const CurvePart& part, int halved) const {

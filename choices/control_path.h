@@ -19,6 +19,7 @@ struct PathNode {
     offsets::ControlPosition at;
     std::uint32_t block = 0;  ///< index into ControlPath::blocks
     bool end = true;          ///< of a move; false: a point along a curve
+    bool rapid = false;       ///< of a rapid
 };
 
 /// A block with motion.

@@ -32,6 +32,8 @@ struct LogView {
     bool marked = false;    ///< every end of a move has a row
     int keys = 0;           ///< number of blocks named by the log; 0: none
     bool even = false;      ///< samples at equal times, so those of a motion tell of its ends
+    double lost = 1.0;      ///< most distances of samples from one row to the next on a steady
+                            ///< way: single rows are missing; 1: none
     double spacing = 0.0;   ///< mm or deg: least distance of samples that is assumed everywhere
     double rounding = 0.0;  ///< mm or deg: half the printed increment if no other noise hides it;
                             ///< an axis at rest has the same one in all its rows
