@@ -179,6 +179,8 @@ Answer answered(const Asked& any, const records::PositionLog& own) {
     coarsen_if_long(asked, log);
     const LogOfProgram plain = log;
     settle_meaning(asked.source(meant.setup), log);
+    log.view.period_min =
+        minutes_of_samples(log.view, asked.comparer(log).run(asked.question.setup));
     settle_lost_rows(asked, log);
     Answer answer = judged_by_numbers(asked, plain, log);
     // Late numbers may show only beside the causes. They are wrong at most changes: what stays in

@@ -13,10 +13,11 @@ namespace {
 
 constexpr double breaks_off = 2.0;  ///< distances of samples before the end of a motion
 constexpr double bends_a_little = 0.87, goes_straight = 1.0 - 1e-6;  ///< cosines
-constexpr double least_lost = 4.0;     ///< distances of samples: of feeds without a row
-constexpr double noise_of_step = 6.0;  ///< sigmas: a shorter distance is none
-constexpr double is_wrong = 1e-3;      ///< of the loss: least of a place where rows may be lost
-constexpr double almost_all = 0.05;    ///< of the loss: most that stays with the places cut
+constexpr double least_lost = 4.0;          ///< distances of samples: of feeds without a row
+constexpr std::size_t least_on_feeds = 50;  ///< pairs of rows on one feed, which tell its period
+constexpr double noise_of_step = 6.0;       ///< sigmas: a shorter distance is none
+constexpr double is_wrong = 1e-3;    ///< of the loss: least of a place where rows may be lost
+constexpr double almost_all = 0.05;  ///< of the loss: most that stays with the places cut
 constexpr std::size_t most_places = 10, rows_a_place = 100;
 constexpr std::size_t told_places = 3;
 constexpr std::size_t rows_beside = 3;
@@ -57,6 +58,15 @@ class RowsOnPath {
         return feed_between(from, to) > least_lost * (leaves ? before : behind);
     }
 
+    /// Of two rows on one move at a feed: their distance over it; else 0.
+    double minutes_behind(std::size_t i) const {
+        const Place &from = place_[i], &to = place_[i + 1];
+        if (from.node == no_node || to.node == no_node || view_.rows[i].cut) return 0.0;
+        const double feed = path_.nodes[from.node].feed_mm_min;
+        if (feed <= 0.0 || begin_of_path(from.node) != begin_of_path(to.node)) return 0.0;
+        return step(i) / feed;
+    }
+
   private:
     struct Place {
         std::uint32_t node = no_node;
@@ -95,6 +105,12 @@ class RowsOnPath {
         const double cosine = dot / std::max(length(k) * length(k + 1), 1e-12);
         return cosine < bends_a_little || cosine > goes_straight;
     }
+    /// The node where the move to this one begins.
+    std::size_t begin_of_path(std::size_t k) const {
+        do --k;
+        while (k > 0 && !path_.nodes[k].end);
+        return k;
+    }
     double end_of_move(const Place& place) const {
         std::size_t k = place.node;
         while (!ends(k)) ++k;
@@ -111,7 +127,7 @@ class RowsOnPath {
         double sum = 0.0;
         const double first = end_of_move(from), last = begin_of_move(to);
         for (std::size_t k = from.node; k <= to.node; ++k)
-            if (!path_.nodes[k].rapid && along_[k - 1] >= first && along_[k] <= last)
+            if (path_.nodes[k].feed_mm_min > 0.0 && along_[k - 1] >= first && along_[k] <= last)
                 sum += length(k);
         return sum;
     }
@@ -144,6 +160,17 @@ std::optional<LogOfProgram> with_lost_rows(LogOfProgram log, const ComparedRun& 
                 view.rows[places[n]].line));
     }
     return log;
+}
+
+double minutes_of_samples(const LogView& view, const ComparedRun& run) {
+    if (view.ends) return 0.0;
+    const RowsOnPath rows(view, run);
+    std::vector<double> minutes;
+    for (std::size_t i = 0; i + 1 < view.rows.size(); ++i)
+        if (const double own = rows.minutes_behind(i); own > 0.0) minutes.push_back(own);
+    if (minutes.size() < least_on_feeds) return 0.0;
+    std::nth_element(minutes.begin(), minutes.end() - 3, minutes.end());
+    return *(minutes.end() - 3);
 }
 
 void settle_lost_rows(const Asked& asked, LogOfProgram& log) {

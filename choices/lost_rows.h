@@ -14,6 +14,11 @@ namespace trunnion::choices {
 /// rapid.) Every row is judged as before.
 std::optional<LogOfProgram> with_lost_rows(LogOfProgram log, const ComparedRun& run);
 
+/// Most of the period of the samples of a log, minutes: by the distances of rows on moves at a feed
+/// (the third largest over its feed, so that the feed of the other control may be a lower one in
+/// most places). 0: the log has too few of them.
+double minutes_of_samples(const LogView& view, const ComparedRun& run);
+
 /// Takes that reading of a log before any cause is sought, if it leaves no gap.
 void settle_lost_rows(const Asked& asked, LogOfProgram& log);
 

@@ -89,6 +89,27 @@ TEST_CASE("a control that leaves out a retract has lost no rows") {
     CHECK_FALSE(has_note(gap, "rows are missing"));
 }
 
+TEST_CASE("a hole that was not drilled is a gap, however long the distances of rapids are") {
+    std::string program = "N10 G90 G21 G17 G54\nN20 G0 X0. Y0. Z40.\n";
+    SampledLog log({0, 0, 0});
+    log.to(20, {0, 0, 40}, rapid);
+    for (int k = 1; k <= 9; ++k) {
+        const std::string n = std::to_string(k);
+        program += "N" + n + "00 G0 X" + std::to_string(20 * k) + ".\nN" + n +
+                   "10 G1 Z32. F500.\nN" + n + "20 G0 Z40.\n";
+        log.to(100 * k, {20.0 * k, 0, 40}, rapid);
+        if (k == 5) continue;
+        log.to(100 * k + 10, {20.0 * k, 0, 32}, feed);
+        log.to(100 * k + 20, {20.0 * k, 0, 40}, rapid);
+    }
+    program += "N9000 M30\n";
+    const ControlGap gap = gap_of(mill_of(), log.log, program);
+    CHECK(gap.verdict == GapVerdict::unexplained);
+    REQUIRE(gap.left.size() == 1);
+    CHECK(gap.left[0].worst.line == 16);
+    CHECK(gap.left[0].worst.apart == Approx(7.8).margin(0.3));
+}
+
 TEST_CASE("single rows that are missing everywhere are no gap") {
     std::string program = "N10 G90 G21 G17 G54\nN20 G0 X0. Y0. Z40.\n";
     SampledLog log({0, 0, 0});
