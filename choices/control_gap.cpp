@@ -11,6 +11,7 @@
 #include "choices/inch_rounding.h"
 #include "choices/judged_noise.h"
 #include "choices/log_meaning.h"
+#include "choices/lost_rows.h"
 #include "choices/program_shape.h"
 #include "choices/trace_of_ends.h"
 
@@ -104,6 +105,13 @@ void try_begun_within(const Asked& asked, const LogOfProgram& log, Answer& answe
     if (!is_left(second.gap) || here * here < much_less * own * own) answer = std::move(second);
 }
 
+/// Causes hide where rows were lost, as long as they are not known.
+void try_lost_rows(const Asked& asked, const LogOfProgram& log, Answer& answer) {
+    if (!is_left(answer.gap)) return;
+    auto other = with_lost_rows(log, asked.comparer(log).run(answer.reached));
+    if (other) try_reading(asked, std::move(*other), answer);
+}
+
 /// A choice of the control may make the same way in other blocks. So numbers of blocks are read
 /// otherwise only if no cause explains the log with these as they stand. `plain`: as it was read.
 Answer judged_by_numbers(const Asked& asked, const LogOfProgram& plain, LogOfProgram& log) {
@@ -171,6 +179,9 @@ Answer answered(const Asked& any, const records::PositionLog& own) {
     coarsen_if_long(asked, log);
     const LogOfProgram plain = log;
     settle_meaning(asked.source(meant.setup), log);
+    log.view.period_min =
+        minutes_of_samples(log.view, asked.comparer(log).run(asked.question.setup));
+    settle_lost_rows(asked, log);
     Answer answer = judged_by_numbers(asked, plain, log);
     // Late numbers may show only beside the causes. They are wrong at most changes: what stays in
     // one or two blocks is no lateness, which would hide it.
@@ -181,6 +192,7 @@ Answer answered(const Asked& any, const records::PositionLog& own) {
     try_without_numbers(asked, log, answer);
     try_whole(asked, log, answer);
     try_begun_within(asked, log, answer);
+    try_lost_rows(asked, log, answer);
     settle_inch_rounding(asked, log, answer);
     tell_foreign(log.foreign.size(), answer.gap);
     tell_early_end(asked, log, answer);

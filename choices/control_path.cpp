@@ -88,7 +88,8 @@ class PathSink : public motion::MotionSink {
             add(m, block, {middle, part.end}, halved + 1);
             return;
         }
-        path_.nodes.push_back({place(m, part.end), block, part.end == 1.0});
+        const double feed = m.kind == motion::MotionKind::rapid ? 0.0 : m.feed_mm_min;
+        path_.nodes.push_back({place(m, part.end), block, part.end == 1.0, feed});
     }
 
     bool is_halved(const motion::AxisMove& m, const CurvePart& part, int halved) const {

@@ -17,8 +17,9 @@ namespace trunnion::choices {
 /// A point of the path, mm and deg; its segment starts at the previous node. A curve has several.
 struct PathNode {
     offsets::ControlPosition at;
-    std::uint32_t block = 0;  ///< index into ControlPath::blocks
-    bool end = true;          ///< of a move; false: a point along a curve
+    std::uint32_t block = 0;   ///< index into ControlPath::blocks
+    bool end = true;           ///< of a move; false: a point along a curve
+    double feed_mm_min = 0.0;  ///< 0: of a rapid
 };
 
 /// A block with motion.

@@ -21,6 +21,12 @@ constexpr double straight = 0.1;    ///< of the shorter distance: a row beside i
 constexpr double like = 1.5;        ///< ratio of two distances at about the same speed
 constexpr double most_like = 0.75;  ///< part of the rows of even samples
 constexpr std::size_t told_jumps = 3;
+constexpr double steady = 1.2;           ///< ratio of the distances before and behind
+constexpr double is_multiple = 0.2;      ///< of a distance: off a whole number of them
+constexpr double far_from_noise = 10.0;  ///< sigmas of a distance that is measured
+constexpr std::size_t least_places = 5;  ///< with single rows missing
+constexpr double mostly = 0.8;           ///< of the longer distances: whole numbers
+constexpr double most_lost = 8.0;        ///< distances
 
 struct Sampling {
     bool dense;
@@ -43,6 +49,28 @@ Sampling sampling_of(const LogView& view, const Space& space, const std::vector<
     }
     return {2 * on_way > moving,
             static_cast<double>(alike) > most_like * static_cast<double>(on_way)};
+}
+
+/// Distances of samples from one row to the next where single rows are missing: on a straight way
+/// at a steady speed they are whole numbers. 1: none are missing.
+double lost_in_a_row(const LogView& view, const Space& space, const std::vector<double>& step) {
+    std::size_t whole = 0, longer = 0;
+    double most = 1.0;
+    for (std::size_t i = 1; i + 1 < step.size(); ++i) {
+        const auto [slow, fast] = std::minmax(step[i - 1], step[i + 1]);
+        if (slow * view.rows[i].weight < far_from_noise || fast > steady * slow) continue;
+        const double ratio = 2.0 * step[i] / (slow + fast);
+        if (ratio < like) continue;
+        const double chord = std::sqrt(space.square(view.rows[i - 1].at, view.rows[i + 2].at));
+        if (chord < step[i - 1] + step[i] + step[i + 1] - straight * slow) continue;
+        ++longer;
+        if (ratio > most_lost || std::abs(ratio - std::round(ratio)) > is_multiple) continue;
+        ++whole;
+        most = std::max(most, std::round(ratio));
+    }
+    const bool single =
+        whole >= least_places && static_cast<double>(whole) >= mostly * static_cast<double>(longer);
+    return single ? most : 1.0;
 }
 
 /// The least distance that is a jump; infinite: none.
@@ -72,6 +100,7 @@ std::vector<std::string> mark_missing_rows(LogView& view) {
         step.push_back(std::sqrt(space.square(view.rows[i - 1].at, view.rows[i].at)));
     const Sampling sampling = sampling_of(view, space, step);
     view.even = sampling.even;
+    view.lost = lost_in_a_row(view, space, step);
     const double from = sampling.dense ? jump_from(step) : std::numeric_limits<double>::infinity();
     std::vector<double> others(3, 0.0);
     std::vector<std::size_t> jumps;
@@ -84,7 +113,7 @@ std::vector<std::string> mark_missing_rows(LogView& view) {
         view.rows[i].cut = view.rows[i].cut || jump;
     }
     std::nth_element(others.begin(), others.begin() + 2, others.end(), std::greater<>());
-    view.spacing = others[2];
+    view.spacing = view.lost * others[2];
     std::vector<std::string> notes;
     for (std::size_t k = 0; k < std::min(told_jumps, jumps.size()); ++k)
         notes.push_back(fmt::format(

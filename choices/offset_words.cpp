@@ -56,6 +56,25 @@ void insert_number(double value, std::set<int>& out) {
     if (value >= 1.0 && value <= most) out.insert(static_cast<int>(value));
 }
 
+/// P of the lines with one of these G codes, or with G10 and this L.
+std::set<int> numbers_of_p(const std::vector<interpreter::ProgramText>& texts,
+                           const std::vector<double>& codes, double data_l) {
+    std::set<int> out;
+    for_each_line(texts, [&](const std::vector<TextWord>& words) {
+        const auto has = [&](char letter, double value) {
+            return std::any_of(words.begin(), words.end(), [&](const TextWord& word) {
+                return word.letter == letter && word.value == value;
+            });
+        };
+        const bool selects =
+            std::any_of(codes.begin(), codes.end(), [&](double code) { return has('G', code); });
+        if (!selects && !(has('G', 10) && has('L', data_l))) return;
+        for (const TextWord& word : words)
+            if (word.letter == 'P') insert_number(word.value, out);
+    });
+    return out;
+}
+
 }  // namespace
 
 std::set<int> offset_words(const std::vector<interpreter::ProgramText>& texts) {
@@ -69,19 +88,11 @@ std::set<int> offset_words(const std::vector<interpreter::ProgramText>& texts) {
 }
 
 std::set<int> additional_offsets(const std::vector<interpreter::ProgramText>& texts) {
-    std::set<int> out;
-    for_each_line(texts, [&](const std::vector<TextWord>& words) {
-        const auto has = [&](char letter, double value) {
-            return std::any_of(words.begin(), words.end(), [&](const TextWord& word) {
-                return word.letter == letter && word.value == value;
-            });
-        };
-        const bool selects = has('G', 54.1) || has('G', 54) || has('G', 154);
-        if (!selects && !(has('G', 10) && has('L', 20))) return;
-        for (const TextWord& word : words)
-            if (word.letter == 'P') insert_number(word.value, out);
-    });
-    return out;
+    return numbers_of_p(texts, {54.1, 54.0, 154.0}, 20.0);
+}
+
+std::set<int> fixture_offset_words(const std::vector<interpreter::ProgramText>& texts) {
+    return numbers_of_p(texts, {54.2}, 21.0);
 }
 
 }  // namespace trunnion::choices

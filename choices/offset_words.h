@@ -15,4 +15,7 @@ std::set<int> offset_words(const std::vector<interpreter::ProgramText>& texts);
 /// The same of P behind G54.1, G54 or G154, and of G10 L20.
 std::set<int> additional_offsets(const std::vector<interpreter::ProgramText>& texts);
 
+/// The same of P behind G54.2, and of G10 L21.
+std::set<int> fixture_offset_words(const std::vector<interpreter::ProgramText>& texts);
+
 }  // namespace trunnion::choices

@@ -28,13 +28,17 @@ struct LogView {
     bool begins_within = false;  ///< the log begins within the program: what comes before its first
                                  ///< row is not judged
     bool from_zero = false;      ///< the control started at its machine zero, not at the first row
-    bool whole = false;     ///< its last row is the end of the program; else it may be anywhere
-    bool marked = false;    ///< every end of a move has a row
-    int keys = 0;           ///< number of blocks named by the log; 0: none
-    bool even = false;      ///< samples at equal times, so those of a motion tell of its ends
-    double spacing = 0.0;   ///< mm or deg: least distance of samples that is assumed everywhere
-    double rounding = 0.0;  ///< mm or deg: half the printed increment if no other noise hides it;
-                            ///< an axis at rest has the same one in all its rows
+    bool whole = false;       ///< its last row is the end of the program; else it may be anywhere
+    bool marked = false;      ///< every end of a move has a row
+    int keys = 0;             ///< number of blocks named by the log; 0: none
+    bool even = false;        ///< samples at equal times, so those of a motion tell of its ends
+    double lost = 1.0;        ///< most distances of samples from one row to the next on a steady
+                              ///< way: single rows are missing; 1: none
+    double period_min = 0.0;  ///< of samples, at most; 0: not known. A feed that takes several
+                              ///< of them has a row
+    double spacing = 0.0;     ///< mm or deg: least distance of samples that is assumed everywhere
+    double rounding = 0.0;    ///< mm or deg: half the printed increment if no other noise hides it;
+                              ///< an axis at rest has the same one in all its rows
     double freedom = std::numeric_limits<double>::infinity();  ///< numbers of which the noise is
                                                                ///< known
     /// Number of a block of the program; -1: not named by the log.

@@ -10,14 +10,20 @@ using offsets::ControlPosition;
 namespace {
 
 constexpr double usual_sigmas = 3.0;  ///< of a row: noise does that
+constexpr double surely_shown = 4.0;  ///< periods of a feed: it has a row
 
 }  // namespace
 
 void PassedNodes::measure() {
     strides_ = Strides(log_, space_);
     begin_.assign(path_.nodes.size(), 0);
-    for (std::size_t k = 1; k < begin_.size(); ++k)
-        begin_[k] = path_.nodes[k - 1].end ? static_cast<std::uint32_t>(k - 1) : begin_[k - 1];
+    length_.assign(path_.nodes.size(), 0.0);
+    for (std::size_t k = 1; k < begin_.size(); ++k) {
+        const bool begins = path_.nodes[k - 1].end;
+        begin_[k] = begins ? static_cast<std::uint32_t>(k - 1) : begin_[k - 1];
+        length_[k] = (begins ? 0.0 : length_[k - 1]) +
+                     std::sqrt(space_.square(path_.nodes[k - 1].at, path_.nodes[k].at));
+    }
 }
 
 ControlPosition PassedNodes::off_chord(std::size_t i, std::size_t k) const {
@@ -35,12 +41,22 @@ ControlPosition PassedNodes::shortened(ControlPosition apart, double by) const {
     return apart;
 }
 
+/// A feed that takes several periods of the samples, and has no row, was not made, however far
+/// apart the samples of rapids are.
+double PassedNodes::allowed(std::size_t i, std::size_t k, const Progress& motion) const {
+    const double usual = strides_.allowed(i, motion);
+    const PathNode& node = path_.nodes[k];
+    const double period = log_.period_min * node.feed_mm_min;  // a distance
+    const bool shown = period > 0.0 && node.end && length_[k] > surely_shown * log_.lost * period;
+    return shown && motion.rows == 0 ? std::min(usual, log_.lost * period) : usual;
+}
+
 ControlPosition PassedNodes::missed(std::size_t i, std::size_t k, const Progress& motion) const {
     const ControlPosition apart = off_chord(i, k);
     // A row that only seems to be an end has its noise once, by its own place.
     if (log_.marked && path_.nodes[k].end)
         return log_.rows[i].end ? apart : shortened(apart, usual_sigmas / log_.rows[i].weight);
-    return shortened(apart, strides_.allowed(i, motion));
+    return shortened(apart, allowed(i, k, motion));
 }
 
 ControlPosition PassedNodes::missed_before(const Progress& motion) const {

@@ -44,6 +44,7 @@ class PassedNodes {
 
   private:
     ControlPosition off_chord(std::size_t i, std::size_t k) const;
+    double allowed(std::size_t i, std::size_t k, const Progress& motion) const;
     ControlPosition shortened(ControlPosition apart, double by) const;
 
     const LogView& log_;
@@ -51,6 +52,7 @@ class PassedNodes {
     Space space_;
     Strides strides_;
     std::vector<std::uint32_t> begin_;  ///< node where the motion to each node begins
+    std::vector<double> length_;        ///< of the path from there to each node, mm or deg
 };
 
 }  // namespace trunnion::choices

@@ -9,6 +9,7 @@ ProgramStores stores_of(const std::vector<interpreter::ProgramText>& texts) {
     ProgramStores out;
     out.offsets = offset_words(texts);
     out.additional = additional_offsets(texts);
+    out.fixture = fixture_offset_words(texts);
     out.variables = inherited_variables(texts);
     return out;
 }

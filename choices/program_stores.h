@@ -12,6 +12,7 @@ struct ProgramStores {
     std::set<int> offsets;     ///< numbers of H, D and T: empty ones may be those of the other
                                ///< control
     std::set<int> additional;  ///< P of G54.1, for the same reason
+    std::set<int> fixture;     ///< P of G54.2
     std::set<int> variables;   ///< common variables that it reads before it stores anything there
     /// A G52 or G92 that an earlier program left in force, where it is not just another external
     /// offset: this program has such codes itself.

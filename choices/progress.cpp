@@ -11,6 +11,7 @@ constexpr std::size_t rows_around = 2;  ///< on each side
 Strides::Strides(const LogView& log, const Space& space) {
     const std::size_t n = log.rows.size();
     even_ = log.even;
+    lost_ = log.lost;
     next_.assign(n, 0.0);
     for (std::size_t i = 0; i + 1 < n; ++i)
         next_[i] = std::sqrt(space.square(log.rows[i].at, log.rows[i + 1].at));

@@ -63,11 +63,12 @@ class Strides {
     /// Few samples need not have the largest distance of the motion among them.
     double own(const Progress& motion) const {
         if (!even_ || motion.rows < 2) return std::numeric_limits<double>::infinity();
-        return motion.stride_mm * (1.0 + 2.0 / (motion.rows - 1.0));
+        return lost_ * motion.stride_mm * (1.0 + 2.0 / (motion.rows - 1.0));
     }
 
     std::vector<double> next_, around_;
     bool even_ = false;
+    double lost_ = 1.0;  ///< of the log: an end may have lost as many rows as any other place
 };
 
 }  // namespace trunnion::choices

@@ -57,6 +57,24 @@ void add_work_offsets(const Setup& setup, const std::vector<Axis>& axes, const P
         [](Setup & s) -> auto& { return s.stores.work.external; }));
 }
 
+/// Of the numbers that the program calls: the offset along the linear axes, and the angles of the
+/// rotary ones at which it was measured.
+void add_fixture_offsets(const Setup& setup, const std::vector<Axis>& axes,
+                         const ProgramStores& used, std::vector<Store>& out) {
+    for (std::size_t k = 0; k < setup.stores.fixture.set.size(); ++k) {
+        if (!used.fixture.contains(static_cast<int>(k) + 1)) continue;
+        const std::string name = "G54.2P" + std::to_string(k + 1);
+        out.push_back(vector_store(
+            name, "fixture offset " + name,
+            axes, [k](Setup & s) -> auto& { return s.stores.fixture.set[k].offset; }));
+        for (std::size_t n = 0; n < axes.size(); ++n)
+            if (const Axis axis = axes[n]; is_rotary(axis))
+                out.back().numbers[n].in = [k, axis](Setup& s) -> double& {
+                    return s.stores.fixture.set[k].reference_angles[axis];
+                };
+    }
+}
+
 /// Along the linear axes: each number costs a run, and such shifts are set for a part.
 void add_left_shifts(const std::vector<Axis>& axes, const ProgramStores& used,
                      std::vector<Store>& out) {
@@ -146,6 +164,7 @@ void add_pivot(const Setup& setup, std::vector<Store>& out) {
         int first, last;
     };
     constexpr Row rows[] = {
+        {"19666", "distance from the tool's seat to the rotary axes of the tool", 19666, 19666},
         {"19700-19702", "place of the table's rotary axis", 19700, 19702},
         {"19703-19705", "second rotary axis of the table against the first", 19703, 19705},
         {"19709-19711", "rotary axis of the tool against the spindle", 19709, 19711},
@@ -242,6 +261,7 @@ std::vector<Store> store_table(const Setup& setup, const ProgramStores& used) {
     std::vector<Store> out;
     add_variables(used, out);
     add_work_offsets(setup, axes, used, out);
+    add_fixture_offsets(setup, axes, used, out);
     add_left_shifts(axes, used, out);
     add_tools(setup, used.offsets, out);
     const auto pivot = is_hurco(setup) ? table_pivot(setup, axes) : std::nullopt;
@@ -255,6 +275,8 @@ std::vector<Store> store_table(const Setup& setup, const ProgramStores& used) {
     out.back().numbers.front().least = 0.0;
     out.push_back({"5115", "clearance of G83", {parameter(5115, 1.0)}});
     out.back().numbers.front().least = 0.0;
+    out.push_back({"5410", "angle of G68 without R", {parameter(5410, 0.0)}});
+    out.back().numbers.front().unit = "deg";
     add_axis_parameter(5440, "overrun of G60", axes, out);
     return out;
 }
