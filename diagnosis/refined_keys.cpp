@@ -26,27 +26,58 @@ Eigen::MatrixXd columns_of_known_forms(const Prepared& p, const Design& design,
     return all;
 }
 
-/// The keys with those of few values (the law of a decay) at the values that explain most.
-std::vector<double> best_of_few(const identification::KeyGain& gain, const effects::Effect& effect,
-                                std::vector<double> keys) {
-    constexpr std::size_t few = 4;
-    double best = gain(effect, keys);
+constexpr std::size_t few_values = 4;  ///< of a key that is not refined: the law of a decay
+
+bool has_few_values(const effects::EffectParameter& p) {
+    return p.is_key() && !p.refine && p.grid.size() <= few_values;
+}
+
+/// All settings of some of the keys.
+std::vector<std::vector<double>> settings_of(const effects::Effect& effect,
+                                             const std::vector<double>& keys,
+                                             bool (*varies)(const effects::EffectParameter&)) {
+    std::vector<std::vector<double>> list{keys};
     for (std::size_t j = 0; j < keys.size(); ++j) {
-        const effects::EffectParameter& p = effect.parameters[j];
-        if (!p.is_key() || p.refine || p.grid.size() > few) continue;
-        for (const double value : p.grid) {
-            std::vector<double> trial = keys;
-            trial[j] = value;
-            const double gained = gain(effect, trial);
-            if (gained <= best) continue;
-            best = gained;
-            keys = std::move(trial);
-        }
+        if (!varies(effect.parameters[j])) continue;
+        std::vector<std::vector<double>> longer;
+        for (const std::vector<double>& setting : list)
+            for (const double value : effect.parameters[j].grid) {
+                longer.push_back(setting);
+                longer.back()[j] = value;
+            }
+        list = std::move(longer);
     }
-    return keys;
+    return list;
 }
 
 }  // namespace
+
+std::vector<double> best_keys(const identification::KeyGain& gain, const effects::Effect& effect,
+                              const std::vector<double>& keys) {
+    constexpr double near = 0.9;  // of what the best setting explains (assumed)
+    std::vector<double> best = identification::refine_keys(gain, effect, keys);
+    const auto laws = settings_of(effect, keys, has_few_values);
+    if (laws.size() == 1) return best;
+    const auto is_refined = [](const effects::EffectParameter& p) {
+        return p.is_key() && p.refine;
+    };
+    double most = gain(effect, best);
+    for (const std::vector<double>& law : laws) {
+        std::vector<double> start = law;
+        double gained = 0.0;
+        for (const std::vector<double>& setting : settings_of(effect, law, is_refined))
+            if (const double own = gain(effect, setting); own > gained) {
+                gained = own;
+                start = setting;
+            }
+        if (gained < near * most) continue;
+        start = identification::refine_keys(gain, effect, std::move(start));
+        if (gained = gain(effect, start); gained <= most) continue;
+        most = gained;
+        best = std::move(start);
+    }
+    return best;
+}
 
 identification::KeyGain gain_beside(const KeyedDesign& keyed, const Model& model) {
     const Prepared& p = keyed.prepared;
@@ -59,10 +90,8 @@ std::optional<std::size_t> refined_group(const KeyedDesign& keyed, const Model& 
     const auto& [design, p, whitener] = keyed;
     const ColumnGroup group = design.group(model.members[position]);
     const identification::KeyGain gain = gain_beside(keyed, without(model, position));
-    return add_ripple_or_other(
-        design, p, whitener, *group.effect,
-        identification::refine_keys(gain, *group.effect,
-                                    best_of_few(gain, *group.effect, group.keys)));
+    return add_ripple_or_other(design, p, whitener, *group.effect,
+                               best_keys(gain, *group.effect, group.keys));
 }
 
 namespace {

@@ -20,6 +20,11 @@ struct KeyedDesign {
 /// take no part of what a wrong key leaves. It must not outlive the prepared readings.
 identification::KeyGain gain_beside(const KeyedDesign& keyed, const Model& model);
 
+/// Refined keys. Each law of a decay has its own length: those that come near the best one on the
+/// grid are refined, too.
+std::vector<double> best_keys(const identification::KeyGain& gain, const effects::Effect& effect,
+                              const std::vector<double>& keys);
+
 /// Adds a group with the keys of one member refined beside the other causes; empty where the
 /// readings do not show it.
 std::optional<std::size_t> refined_group(const KeyedDesign& keyed, const Model& model,

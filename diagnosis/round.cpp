@@ -173,10 +173,9 @@ Model with_keys_for_plays(const KeyedDesign& keyed, const SearchSetting& setting
         return model;
     Model trial = tuned(design, setting, without_forms_along(design, model), 2);
     const identification::KeyGain gain = gain_beside(keyed, trial);
-    for (KeyedEffect& found : promising(p, rests.keys(), rests.of(trial).remainder, 1))
-        add_ripple_or_other(
-            design, p, whitener, *found.effect,
-            identification::refine_keys(gain, *found.effect, std::move(found.keys)));
+    for (const KeyedEffect& found : promising(p, rests.keys(), rests.of(trial).remainder, 1))
+        add_ripple_or_other(design, p, whitener, *found.effect,
+                            best_keys(gain, *found.effect, found.keys));
     trial = with_refined_keys(keyed, setting, grown(design, setting, std::move(trial)));
     return trial.score > model.score ? trial : model;
 }

@@ -22,9 +22,9 @@ bool is_turning(const records::ReadingTable& table, const records::Reading& row,
     });
 }
 
-/// True where an axis sets off from its turning point at the first of three rows: it goes three
-/// times as far from the second to the third, as from any vertex. From a twentieth of a step beside
-/// it, the ratio is 2.8.
+/// True where an axis sets off from its turning point at the first of three rows, or passes it
+/// before the second one: it goes three times as far from the second to the third, or farther. From
+/// a twentieth of a step behind it, the ratio is 2.8.
 bool begins_at_vertex(const records::ReadingTable& table, std::size_t first) {
     constexpr double at_vertex = 2.8, least_mm = 1e-6;
     return std::any_of(table.axes.begin(), table.axes.end(), [&](Axis axis) {
@@ -33,19 +33,6 @@ bool begins_at_vertex(const records::ReadingTable& table, std::size_t first) {
         return std::abs(far) > least_mm && near * far >= 0.0 &&
                std::abs(far) >= at_vertex * std::abs(near);
     });
-}
-
-/// Rows at which a test with a ballbar begins at a turning point: from which side it was reached
-/// was not recorded.
-std::vector<std::size_t> turning_starts(const records::ReadingTable& table) {
-    std::vector<std::size_t> starts;
-    const auto& rows = table.rows;
-    for (std::size_t i = 0; i + 2 < rows.size(); ++i)
-        if (rows[i].device == records::Device::ballbar &&
-            (i == 0 || rows[i - 1].test != rows[i].test) && rows[i + 2].test == rows[i].test &&
-            begins_at_vertex(table, i))
-            starts.push_back(i);
-    return starts;
 }
 
 }  // namespace
@@ -63,8 +50,6 @@ std::optional<WithoutTurningPoints> without_turning_points(const records::Readin
         ++dense;
         if (is_turning(table, table.rows[i], samples[i])) turning.push_back(i);
     }
-    for (const std::size_t i : turning_starts(table))
-        if (std::find(turning.begin(), turning.end(), i) == turning.end()) turning.push_back(i);
     if (turning.empty() || turning.size() * least_rows_for_each > dense) return std::nullopt;
     WithoutTurningPoints rest{table, turning.size()};
     for (const std::size_t i : turning) {
@@ -72,6 +57,19 @@ std::optional<WithoutTurningPoints> without_turning_points(const records::Readin
         rest.table.rows[i].value_mm.reset();
     }
     return rest;
+}
+
+std::vector<std::size_t> turning_starts(const Prepared& p) {
+    const auto& rows = p.table.rows;
+    std::vector<std::size_t> starts;
+    for (std::size_t i = 0; i < p.replay.size(); ++i) {
+        const std::size_t k = p.replay.table_row(i);
+        if (rows[k].device == records::Device::ballbar && k + 2 < rows.size() &&
+            (k == 0 || rows[k - 1].test != rows[k].test) && rows[k + 2].test == rows[k].test &&
+            begins_at_vertex(p.table, k))
+            starts.push_back(i);
+    }
+    return starts;
 }
 
 }  // namespace trunnion::diagnosis

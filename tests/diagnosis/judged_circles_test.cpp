@@ -130,14 +130,22 @@ TEST_CASE("a play against a lag is no correction of it", "[diagnosis][judged][ci
     check_found({.gap_mm = gap_mm, .lag_s = 0.55e-3}, {"X.backlash", "servo.mismatch"});
 }
 
-TEST_CASE("the first row of a circle that begins at a quadrant is left out",
+TEST_CASE("the first row of a circle that begins at a quadrant tells no spike",
           "[diagnosis][judged][circle]") {
-    const auto begun = diagnosis::without_turning_points(circles({}, 1, 0.0));
-    REQUIRE(begun);
-    CHECK(begun->table.rows[0].device == records::Device::none);
-    CHECK(begun->table.rows[1].device == records::Device::ballbar);
-    const auto beside = diagnosis::without_turning_points(circles({}, 1, 0.4));
-    CHECK(!beside);
+    const auto rows_of = [](double from_deg) {
+        return diagnosis::turning_starts(
+            diagnosis::prepare(judged_mill(), circles({}, 1, from_deg)));
+    };
+    CHECK(rows_of(0.0) == std::vector<std::size_t>{0, 241, 482, 723});
+    CHECK(rows_of(45.37).empty());
+    // The way back passes the quadrant between its first rows.
+    CHECK(rows_of(0.4) == std::vector<std::size_t>{241, 723});
+
+    const Mill mill{.gap_mm = 0.01, .lag_s = 1e-3};
+    const diagnosis::Diagnosis d = diagnosed(judged_mill(), circles(mill, 1, 0.0));
+    INFO(said(d));
+    CHECK(probability_of(d, "X.reversal_spike") < 0.5);
+    CHECK(probability_of(d, "X.backlash") > 0.8);
 }
 
 }  // namespace trunnion

@@ -58,7 +58,8 @@ TEST_CASE("few and scattered readings are wild, many or neighbours are an effect
     const auto wild = [&](int first, int step, int count) {
         Eigen::VectorXd left = quiet;
         for (int k = 0; k < count; ++k) left(first + k * step) = k % 2 ? 12.0 : -12.0;
-        return diagnosis::wild_readings({left, Eigen::VectorXd::Zero(left.size()), devices}, used);
+        return diagnosis::wild_readings({left, Eigen::VectorXd::Zero(left.size()), devices}, used,
+                                        0.04 * rows);
     };
     CHECK(wild(0, 1, 0).empty());
     CHECK(wild(20, 100, 3) == std::vector<std::size_t>{20, 120, 220});
