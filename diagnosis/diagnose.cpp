@@ -211,7 +211,7 @@ Round first_round(const Prepared& p, bool over_sessions) {
     round.noise = belief_of(p, p.base.residual_mm, round);
     leave_out(p, lone_probe_readings(p, round.used), round);
     leave_out(p, unrepeated_readings(p, round.used), round);
-    leave_out(p, turning_starts(p), round);
+    pass_over(p, turning_starts(p), round);
     return round;
 }
 

@@ -54,7 +54,7 @@ std::vector<std::vector<double>> settings_of(const effects::Effect& effect,
 
 std::vector<double> best_keys(const identification::KeyGain& gain, const effects::Effect& effect,
                               const std::vector<double>& keys) {
-    constexpr double near = 0.9;  // of what the best setting explains (assumed)
+    constexpr double near = 0.95;  // of what the best setting explains (assumed)
     std::vector<double> best = identification::refine_keys(gain, effect, keys);
     const auto laws = settings_of(effect, keys, has_few_values);
     if (laws.size() == 1) return best;
@@ -91,7 +91,7 @@ std::optional<std::size_t> refined_group(const KeyedDesign& keyed, const Model& 
     const ColumnGroup group = design.group(model.members[position]);
     const identification::KeyGain gain = gain_beside(keyed, without(model, position));
     return add_ripple_or_other(design, p, whitener, *group.effect,
-                               best_keys(gain, *group.effect, group.keys));
+                               identification::refine_keys(gain, *group.effect, group.keys));
 }
 
 namespace {
@@ -129,8 +129,12 @@ Model with_new_keys(const KeyedDesign& keyed, const SearchSetting& setting, Mode
     bool changed = false;
     Model trial = model;
     for (std::size_t k = 0; k < trial.members.size(); ++k) {
-        if (keyed.design.group(trial.members[k]).kind != GroupKind::periodic) continue;
-        const auto better = refined_group(keyed, trial, k);
+        const ColumnGroup group = keyed.design.group(trial.members[k]);
+        if (group.kind != GroupKind::periodic) continue;
+        const identification::KeyGain gain = gain_beside(keyed, without(trial, k));
+        const auto better =
+            add_ripple_or_other(keyed.design, keyed.prepared, keyed.whitener, *group.effect,
+                                best_keys(gain, *group.effect, group.keys));
         if (!better) continue;
         trial.members[k] = *better;
         changed = true;

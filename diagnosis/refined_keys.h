@@ -25,12 +25,12 @@ identification::KeyGain gain_beside(const KeyedDesign& keyed, const Model& model
 std::vector<double> best_keys(const identification::KeyGain& gain, const effects::Effect& effect,
                               const std::vector<double>& keys);
 
-/// Adds a group with the keys of one member refined beside the other causes; empty where the
-/// readings do not show it.
+/// Adds a group with the keys of one member refined beside the other causes, with the law that it
+/// has; empty where the readings do not show it.
 std::optional<std::size_t> refined_group(const KeyedDesign& keyed, const Model& model,
                                          std::size_t position);
 
-/// The model with the keys of its members refined, one after the other, and tuned.
+/// The model with the best keys of its members, one after the other, and tuned.
 Model with_new_keys(const KeyedDesign& keyed, const SearchSetting& setting, Model model);
 
 /// Refines the keys of members, and grows the model again from there. Drivers are excluded

@@ -266,12 +266,16 @@ NoiseBelief belief_of(const Prepared& p, const Eigen::VectorXd& residual_mm, con
     return belief;
 }
 
-void leave_out(const Prepared& p, const std::vector<std::size_t>& rows, Round& round) {
+void pass_over(const Prepared& p, const std::vector<std::size_t>& rows, Round& round) {
     for (const std::size_t i : rows) {
         const auto row = static_cast<Eigen::Index>(i);
-        round.used[i] = false;
         round.sigma_mm(row) = outlier_sigma * p.base.sigma_mm(row);
     }
+}
+
+void leave_out(const Prepared& p, const std::vector<std::size_t>& rows, Round& round) {
+    pass_over(p, rows, round);
+    for (const std::size_t i : rows) round.used[i] = false;
 }
 
 Searched search_of(const Prepared& p, const Round& round, KeySearch& keys, const Searched* earlier,

@@ -21,6 +21,8 @@ struct Round {
 NoiseBelief belief_of(const Prepared& prepared, const Eigen::VectorXd& residual_mm,
                       const Round& round);
 
+/// Lets these device rows count for nothing, although they are used: they are not spoiled.
+void pass_over(const Prepared& prepared, const std::vector<std::size_t>& rows, Round& round);
 /// Leaves these device rows out of a round.
 void leave_out(const Prepared& prepared, const std::vector<std::size_t>& rows, Round& round);
 

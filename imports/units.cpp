@@ -86,6 +86,8 @@ constexpr std::pair<const char*, Unit> unit_names[] = {
     {"rad", {Quantity::angle, 1.0}},
     {"mrad", {Quantity::angle, 1e-3}},
     {"urad", {Quantity::angle, 1e-6}},
+    {"um/m", {Quantity::angle, 1e-6}},  // of a level
+    {"mm/m", {Quantity::angle, 1e-3}},
     {"arcsec", {Quantity::angle, deg_rad / 3600.0}},
     {"arcsecs", {Quantity::angle, deg_rad / 3600.0}},
     {"arcsecond", {Quantity::angle, deg_rad / 3600.0}},

@@ -34,8 +34,8 @@ Eigen::VectorXd table_values(const ColumnGroup& group, const Eigen::VectorXd& co
 std::vector<double> usual_sizes(Design& design, const Model& model);
 
 /// The base setup with all causes of the model added: the machine in the last session. `at_places`:
-/// members whose table holds at its positions alone, and ripples whose values are known there alone;
-/// empty: none.
+/// members whose table holds at its positions alone, and ripples whose values are known there
+/// alone; empty: none.
 setup::Setup setup_with(const Prepared& prepared, const Design& design, const Model& model,
                         const Solution& solution, const std::vector<bool>& at_places = {});
 

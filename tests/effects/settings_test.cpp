@@ -20,7 +20,8 @@ TEST_CASE("the catalogue has every name of the contract", "[effects]") {
         "control.chord",     "clamp.shift",       "sensor.gain",    "machine.expansion"};
     for (const char* axis : {"B", "C"})
         for (const char* what :
-             {".zero", ".positioning", ".cyclic", ".radial", ".axial", ".tilt", ".backlash"})
+             {".zero", ".positioning", ".cyclic", ".radial", ".axial", ".tilt", ".backlash",
+              ".reversal_spike"})  // the contract has the spike of linear axes only
             names.push_back(std::string(axis) + what);
     for (const char* axis : {"X", "Y", "Z"})
         for (const char* what : {".scale", ".straightness", ".angular", ".cyclic", ".backlash",

@@ -74,6 +74,8 @@ TEST_CASE("units in lower and upper case, and every micro") {
         CHECK(imports::find_unit(um)->factor == 1e-3);
     CHECK(imports::find_unit("arcsec")->factor == Approx(4.848136811e-6));
     CHECK(imports::find_unit("mm/min")->factor == Approx(1.0 / 60));
+    CHECK(imports::find_unit("\xC2\xB5m/m")->factor == Approx(1e-6));  // of a level: an angle
+    CHECK(imports::find_unit("mm/m")->quantity == imports::Quantity::angle);
     CHECK_FALSE(imports::find_unit("furlong"));
     CHECK_FALSE(imports::find_unit(""));
 }
