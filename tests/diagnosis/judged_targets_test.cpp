@@ -206,16 +206,18 @@ TEST_CASE("a rotary axis that winds up over some degrees has no error of its pos
 }
 
 TEST_CASE("the angles of a bed of six metres are no impossible cause", "[diagnosis][judged]") {
-    const Line roll{records::Device::angle, Vector3::UnitX(), Axis::X, evenly(13, 500.0), 3};
+    const Line roll{records::Device::angle, Vector3::UnitX(), Axis::X, evenly(25, 250.0), 2};
     Line pitch = roll;
     pitch.direction_M = Vector3::UnitY();
-    const auto sagging = [&](double size) {
-        return [&roll, size](std::size_t k, int, double) {
-            return size * std::sin(pi * roll.targets[k] / 6000.0 * 1.7 + 0.3);
-        };
+    const auto along = [&](std::size_t k) { return roll.targets[k]; };
+    records::ReadingTable table = there_and_back(roll, 1e-6, 1, [&](std::size_t k, int, double) {
+        return 20e-6 * std::sin(1.5 * pi * along(k) / 6000.0);
+    });
+    // The bed hangs between feet 2.4 m apart.
+    const auto slope = [&](std::size_t k, int, double) {
+        return 16e-6 * std::sin(2.0 * pi * (along(k) - 600.0) / 2400.0);
     };
-    records::ReadingTable table = there_and_back(roll, 1e-6, 1, sagging(12e-6));
-    for (records::Reading row : there_and_back(pitch, 1e-6, 2, sagging(-15e-6)).rows) {
+    for (records::Reading row : there_and_back(pitch, 1e-6, 2, slope).rows) {
         row.test = "pitch";
         row.index = static_cast<int>(table.rows.size());
         row.time_s += 1000.0;
