@@ -11,6 +11,7 @@ namespace trunnion::choices {
 
 namespace {
 
+// All of these are assumed.
 constexpr double breaks_off = 2.0;  ///< distances of samples before the end of a motion
 constexpr double bends_a_little = 0.87, goes_straight = 1.0 - 1e-6;  ///< cosines
 constexpr double least_lost = 4.0;          ///< distances of samples: of feeds without a row

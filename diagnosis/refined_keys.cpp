@@ -6,6 +6,7 @@
 #include "diagnosis/groups/ripples.h"
 #include "diagnosis/round.h"
 #include "identification/identify.h"
+#include "identification/key_settings.h"
 
 namespace trunnion::diagnosis {
 namespace {
@@ -32,31 +33,13 @@ bool has_few_values(const effects::EffectParameter& p) {
     return p.is_key() && !p.refine && p.grid.size() <= few_values;
 }
 
-/// All settings of some of the keys.
-std::vector<std::vector<double>> settings_of(const effects::Effect& effect,
-                                             const std::vector<double>& keys,
-                                             bool (*varies)(const effects::EffectParameter&)) {
-    std::vector<std::vector<double>> list{keys};
-    for (std::size_t j = 0; j < keys.size(); ++j) {
-        if (!varies(effect.parameters[j])) continue;
-        std::vector<std::vector<double>> longer;
-        for (const std::vector<double>& setting : list)
-            for (const double value : effect.parameters[j].grid) {
-                longer.push_back(setting);
-                longer.back()[j] = value;
-            }
-        list = std::move(longer);
-    }
-    return list;
-}
-
 }  // namespace
 
 std::vector<double> best_keys(const identification::KeyGain& gain, const effects::Effect& effect,
                               const std::vector<double>& keys) {
     constexpr double near = 0.95;  // of what the best setting explains (assumed)
     std::vector<double> best = identification::refine_keys(gain, effect, keys);
-    const auto laws = settings_of(effect, keys, has_few_values);
+    const auto laws = identification::key_settings(effect, keys, has_few_values);
     if (laws.size() == 1) return best;
     const auto is_refined = [](const effects::EffectParameter& p) {
         return p.is_key() && p.refine;
@@ -65,7 +48,8 @@ std::vector<double> best_keys(const identification::KeyGain& gain, const effects
     for (const std::vector<double>& law : laws) {
         std::vector<double> start = law;
         double gained = 0.0;
-        for (const std::vector<double>& setting : settings_of(effect, law, is_refined))
+        for (const std::vector<double>& setting :
+             identification::key_settings(effect, law, is_refined))
             if (const double own = gain(effect, setting); own > gained) {
                 gained = own;
                 start = setting;

@@ -88,10 +88,12 @@ Effect rotary_backlash(const kinematics::AxisGeometry& axis) {
         SeenBy::scale};
 }
 
+/// As that of a linear axis by its way; the exponential is assumed for both.
 Effect rotary_reversal_spike(const kinematics::AxisGeometry& axis) {
     return {
         identity_of(axis, EffectKind::reversal_spike),
-        "The axis lags when it turns round, and catches up over some degrees",
+        "The axis lags when it turns round, and catches up over some degrees (negative: it falls "
+        "behind over these)",
         "friction that winds up the gear, a belt or a long shaft behind the encoder",
         "look for friction in bearing, seal and clamp; stiffen the drive, or read the table itself "
         "with a direct encoder",

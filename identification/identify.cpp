@@ -10,6 +10,7 @@
 #include "effects/settings.h"
 #include "estimation/quantiles.h"
 #include "identification/index_errors.h"
+#include "identification/key_settings.h"
 #include "identification/keys.h"
 #include "identification/needed_terms.h"
 #include "identification/set_up_words.h"
@@ -148,23 +149,12 @@ std::vector<double> search_keys(const emulator::Replay& replay, const BaseModel&
     const KeyGain gain(replay, base, left_mm);
     std::vector<double> best = effect.zeros();
     double most = -1.0;
-    std::vector<std::size_t> key;
-    for (std::size_t j = 0; j < effect.parameters.size(); ++j)
-        if (effect.parameters[j].is_key()) key.push_back(j);
-    std::vector<std::size_t> at(key.size(), 0);
-    for (bool more = true; more;) {
-        std::vector<double> values = effect.zeros();
-        for (std::size_t k = 0; k < key.size(); ++k)
-            values[key[k]] = effect.parameters[key[k]].grid[at[k]];
+    for (const std::vector<double>& values : key_settings(effect, best))
         if (const double g = gain(effect, values); g > most) {
             most = g;
             best = values;
         }
-        std::size_t k = 0;
-        while (k < key.size() && ++at[k] == effect.parameters[key[k]].grid.size()) at[k++] = 0;
-        more = k < key.size();
-    }
-    return refine_keys(replay, base, effect, best, left_mm);
+    return refine_keys(gain, effect, best);
 }
 
 namespace {

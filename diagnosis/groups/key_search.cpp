@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "estimation/inner_products.h"
+#include "identification/key_settings.h"
 
 namespace trunnion::diagnosis {
 namespace {
@@ -38,22 +39,6 @@ constexpr double rounding = 1e-12;
 Eigen::LLT<Eigen::MatrixXd> information(Eigen::MatrixXd square) {
     square.diagonal().array() += 1.0;
     return square.llt();
-}
-
-/// All combinations of the key grids of an effect, the first key varying fastest.
-std::vector<std::vector<double>> grid_of(const effects::Effect& effect) {
-    std::vector<std::vector<double>> list{effect.zeros()};
-    for (std::size_t j = effect.parameters.size(); j-- > 0;) {
-        if (!effect.parameters[j].is_key()) continue;
-        std::vector<std::vector<double>> longer;
-        for (const std::vector<double>& values : list)
-            for (const double g : effect.parameters[j].grid) {
-                longer.push_back(values);
-                longer.back()[j] = g;
-            }
-        list = std::move(longer);
-    }
-    return list;
 }
 
 }  // namespace
@@ -103,7 +88,7 @@ std::vector<KeySearch::Setting> KeySearch::worked_out(const effects::Effect& eff
     const Eigen::MatrixXd orders = first_orders(effect);
     const estimation::Projection first(orders);
     std::vector<Setting> list;
-    for (std::vector<double>& values : grid_of(effect)) {
+    for (std::vector<double>& values : identification::key_settings(effect, effect.zeros())) {
         const Eigen::MatrixXd rough = columns(effect, values, rough_rows_, rough_weight_);
         const double seen = rough.squaredNorm();
         const bool alias = orders.cols() > 0 && first.beside(rough).squaredNorm() <=
