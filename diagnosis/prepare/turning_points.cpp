@@ -1,6 +1,7 @@
 #include "diagnosis/prepare/turning_points.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "records/samples.h"
@@ -18,6 +19,20 @@ bool is_turning(const records::ReadingTable& table, const records::Reading& row,
         const bool counts = row.device != records::Device::axis ||
                             table.names.find(row.feature) == std::optional(axis);
         return counts && sample.travel[index_of(axis)] == 0 && !sample.side_unknown[index_of(axis)];
+    });
+}
+
+/// True where an axis sets off from its turning point at the first of three rows, or passes it
+/// before the second one: it goes three times as far from the second to the third, or farther. From
+/// a twentieth of a step behind it, the ratio is 2.8. By the positions alone: the sides in the
+/// replay go on from the test before, where the last row of that was left out.
+bool begins_at_vertex(const records::ReadingTable& table, std::size_t first) {
+    constexpr double at_vertex = 2.8, least_mm = 1e-6;  // assumed
+    return std::any_of(table.axes.begin(), table.axes.end(), [&](Axis axis) {
+        const auto at = [&](std::size_t k) { return table.rows[first + k].commanded[axis]; };
+        const double near = at(1) - at(0), far = at(2) - at(1);
+        return std::abs(far) > least_mm && near * far >= 0.0 &&
+               std::abs(far) >= at_vertex * std::abs(near);
     });
 }
 
@@ -46,15 +61,13 @@ std::optional<WithoutTurningPoints> without_turning_points(const records::Readin
 }
 
 std::vector<std::size_t> turning_starts(const Prepared& p) {
+    const auto& rows = p.table.rows;
     std::vector<std::size_t> starts;
     for (std::size_t i = 0; i < p.replay.size(); ++i) {
-        const AxisSample& sample = p.replay.sample(i);
-        const bool starts_there =
-            std::any_of(p.table.axes.begin(), p.table.axes.end(), [&](Axis axis) {
-                return sample.run_up_unknown[index_of(axis)] &&
-                       sample.since_reversal[index_of(axis)] == 0.0;
-            });
-        if (p.replay.contact(i).device == records::Device::ballbar && starts_there)
+        const std::size_t k = p.replay.table_row(i);
+        if (rows[k].device == records::Device::ballbar && k + 2 < rows.size() &&
+            (k == 0 || rows[k - 1].test != rows[k].test) && rows[k + 2].test == rows[k].test &&
+            begins_at_vertex(p.table, k))
             starts.push_back(i);
     }
     return starts;

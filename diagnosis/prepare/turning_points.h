@@ -21,8 +21,8 @@ struct WithoutTurningPoints {
 /// readings, or where they are more than a quarter (a coarse circle).
 std::optional<WithoutTurningPoints> without_turning_points(const records::ReadingTable& table);
 
-/// Readings (device rows) with which a test of a ballbar begins where an axis is taken to turn
-/// (records/walk.cpp): from which side it was reached was not recorded.
+/// Readings (device rows) with which a test of a ballbar begins at a turning point, or just before
+/// one: from which side it was reached was not recorded.
 std::vector<std::size_t> turning_starts(const Prepared& prepared);
 
 }  // namespace trunnion::diagnosis
